@@ -78,7 +78,7 @@ class RangeScheduler {
   const int64_t point_bytes_;
   const int64_t room_;           // Points.
   const int64_t longest_range_;  // Points.
-  std::deque<Range> ranges_;     // Those of which not every point has left.
+  std::deque<Range> ranges_;     // Some point of each has not left yet.
   int64_t emitted_;
   int64_t unclaimed_;
   int64_t tasks_ = 0;

@@ -178,10 +178,11 @@ void Server::LogAddresses(const std::string& event, const Endpoint& endpoint) co
 
 void Server::ServeUntil(const Signals& signals) {
   const std::string signal = signals.WaitForStop([this] { HangUp(); });
-  log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", live_calls_.live()}});
   watchdog_.reset();
   serving_ = false;
   endpoint_->server().GetHealthCheckService()->SetServingStatus(false);
+  // This line comes last, so that whoever reads it finds health NOT_SERVING.
+  log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", live_calls_.live()}});
   drain_.Run(signals, [this] { return live_calls_.live(); });
   // Removes the files of Unix sockets.
   endpoint_->acceptor().StopAccepting();

@@ -83,9 +83,9 @@ absl::Status RunList(const ConformanceOptions& options) {
   return WriteOutput(options.common, options.common.format == Format::kJson ? json + "\n]\n" : table.Render(0));
 }
 
-std::string MatrixText(const Matrix& matrix) {
+std::string MatrixText(const Eigen::MatrixXd& matrix) {
   Table table;
-  for (const std::vector<double>& row : matrix) {
+  for (const auto& row : matrix.rowwise()) {
     std::vector<std::string> cells;
     for (const double entry : row) cells.push_back(ShortestDecimal(entry));
     table.Add(std::move(cells));
@@ -94,19 +94,20 @@ std::string MatrixText(const Matrix& matrix) {
 }
 
 std::string CaseText(const ConformanceCase& one) {
-  std::string text = absl::StrCat(one.name, " (", one.family, ")\n", Wrapped(one.shows, 2),
-                                  Wrapped(absl::StrCat("Source: ", one.source), 2), "\n  M\n", MatrixText(one.mass),
-                                  "  J\n", MatrixText(one.jacobian), "  friction\n", MatrixText({one.friction}),
-                                  "  coefficient of restitution\n", MatrixText({one.coefficient}), "\n");
+  std::string text =
+      absl::StrCat(one.name, " (", one.family, ")\n", Wrapped(one.shows, 2),
+                   Wrapped(absl::StrCat("Source: ", one.source), 2), "\n  M\n", MatrixText(one.mass), "  J\n",
+                   MatrixText(one.jacobian), "  friction\n", MatrixText(one.friction.transpose()),
+                   "  coefficient of restitution\n", MatrixText(one.coefficient.transpose()), "\n");
   Table table;
   std::vector<std::string> head = {"", "before"};
   for (const RightAnswer& answer : one.answers) {
     head.push_back(absl::StrCat(answer.law, answer.also.empty() ? "" : ", ", absl::StrJoin(answer.also, ", ")));
   }
   table.Add(head);
-  for (size_t i = 0; i < one.coordinates.size(); ++i) {
-    std::vector<std::string> row = {one.coordinates[i], ShortestDecimal(one.before[i])};
-    for (const RightAnswer& answer : one.answers) row.push_back(ShortestDecimal(answer.velocity_after[i]));
+  for (Eigen::Index i = 0; i < one.before.size(); ++i) {
+    std::vector<std::string> row = {one.coordinates[static_cast<size_t>(i)], ShortestDecimal(one.before(i))};
+    for (const RightAnswer& answer : one.answers) row.push_back(ShortestDecimal(answer.velocity_after(i)));
     table.Add(std::move(row));
   }
   return text + table.Render(2);

@@ -60,23 +60,6 @@ absl::StatusOr<CostRequest> MakeRequest(const CostOptions& options) {
   return request;
 }
 
-// Returns all parts of the study as one.
-absl::StatusOr<CostChunk> Study(const Solver& solver, const CostRequest& request, std::stop_token stop) {
-  CostChunk whole;
-  Progress progress(/*rows_to_terminal=*/false, "methods");
-  for (absl::StatusOr<CostChunk>& chunk : solver.Cost(request, {.stop = std::move(stop)})) {
-    if (!chunk.ok()) return chunk.status();
-    progress.Update(chunk->rows_done, chunk->rows_total);
-    for (CostRow& row : chunk->rows) whole.rows.push_back(std::move(row));
-    whole.rows_done = chunk->rows_done;
-    whole.rows_total = chunk->rows_total;
-    whole.summary = std::move(chunk->summary);
-    whole.engine = std::move(chunk->engine);
-  }
-  if (!whole.summary.has_value()) return absl::DataLossError("the study ended without a summary");
-  return whole;
-}
-
 absl::Status WritePage(const Scene& scene, const CostChunk& study, const std::string& path) {
   const std::string date = absl::FormatTime("%Y-%m-%d %H:%M UTC", absl::Now(), absl::UTCTimeZone());
   const absl::StatusOr<std::string> page = CostPage(scene, study, date);
@@ -91,7 +74,10 @@ absl::Status RunCost(const CostOptions& options) {
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<CostRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  const absl::StatusOr<CostChunk> study = Study(**solver, *request, interrupt.token());
+  Progress progress(/*rows_to_terminal=*/false, "methods");
+  const absl::StatusOr<CostChunk> study =
+      WholeStudy((*solver)->Cost(*request, {.stop = interrupt.token()}),
+                 [&](const CostChunk& part) { progress.Update(part.rows_done, part.rows_total); });
   if (!study.ok()) return study.status();
   absl::Status written = WriteAnswer(
       options.common, *study, [&] { return CostText(*study); }, [&] { return CostCsv(*study); });

@@ -1,23 +1,26 @@
 #include <CLI/App.hpp>
-#include <condition_variable>
 #include <cstdio>
+#include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
 #include "client/cli/explore/connect.h"
 #include "client/cli/explore/impact_page.h"
 #include "client/cli/explore/web_server.h"
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
+#include "client/cli/report/cost_report.h"
 #include "client/cli/subcommands.h"
 #include "client/cli/terminal/interrupt.h"
+#include "client/cli/text/json_text.h"
 #include "client/cli/text/number_input.h"
 #include "client/server_address.h"
+#include "proto/wire/cost.h"
 
 namespace ricochet::cli {
 namespace {
@@ -38,17 +41,19 @@ struct ExploreOptions {
   bool insecure = false;
 };
 
-// Splits --listen into the host and the port of `server`.
-absl::Status ReadListen(const ExploreOptions& options, WebServer::Options& server) {
+// Splits --listen into a host and a port.
+absl::StatusOr<std::pair<std::string, int>> ReadListen(const ExploreOptions& options) {
   const size_t colon = options.listen.rfind(':');
-  const bool has_port = colon != std::string::npos && absl::SimpleAtoi(options.listen.substr(colon + 1), &server.port);
-  if (!has_port || colon == 0 || server.port < 0 || server.port > 65535) {
+  int port = 0;
+  const bool has_port = colon != std::string::npos && absl::SimpleAtoi(options.listen.substr(colon + 1), &port);
+  if (!has_port || colon == 0 || port < 0 || port > 65535) {
     return InputError("--listen", options.listen,
                       "be ADDRESS:PORT with a port from 0 to 65535; 0 lets the system choose");
   }
-  server.host = options.listen.substr(0, colon);
-  if (server.host == "localhost") server.host = "127.0.0.1";
-  if (IsLoopbackAddress(options.listen) || options.insecure) return absl::OkStatus();
+  const std::string host = options.listen.substr(0, colon);
+  if (IsLoopbackAddress(options.listen) || options.insecure) {
+    return std::pair(host == "localhost" ? "127.0.0.1" : host, port);
+  }
   return InputError("--listen", options.listen,
                     "be an address of loopback without --insecure; other hosts could read the token on its way");
 }
@@ -64,15 +69,18 @@ void AnswerPage(const std::optional<Scene>& scene, Exchange& exchange) {
                               "form-action 'none'; frame-ancestors 'none'\r\n"));
 }
 
-void WaitFor(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::unique_lock lock(mutex);
-  std::condition_variable_any().wait(lock, stop, [] { return false; });
+// Answers a CostRequest in JSON with the whole study.
+absl::StatusOr<std::string> CostAnswer(const Solver& solver, const std::string& body, const CallOptions& options) {
+  v1::CostRequest request;
+  if (absl::Status wrong = ParseJson("the body", body, request); !wrong.ok()) return wrong;
+  const absl::StatusOr<CostChunk> study = WholeStudy(solver.Cost(FromProto(request), options), [](const CostChunk&) {});
+  if (!study.ok()) return study.status();
+  return JsonOf(ToProto(*study));
 }
 
 absl::Status RunExplore(const ExploreOptions& options) {
-  WebServer::Options server = {.host = "", .token = RandomHex(), .answer = nullptr};
-  if (absl::Status wrong = ReadListen(options, server); !wrong.ok()) return wrong;
+  const absl::StatusOr<std::pair<std::string, int>> address = ReadListen(options);
+  if (!address.ok()) return address.status();
   std::optional<Scene> scene;
   if (options.scene.any()) {
     absl::StatusOr<Scene> read = ReadScene(options.scene);
@@ -83,17 +91,19 @@ absl::Status RunExplore(const ExploreOptions& options) {
   const Interrupt interrupt;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common, {}, Limits());
   if (!solver.ok()) return solver.status();
-  server.answer = [&](Exchange& exchange, const absl::Status& allowed) {
+  const auto answer = [&](Exchange& exchange, const absl::Status& allowed) {
     if (!allowed.ok()) return ReplyError(allowed, exchange);
     if (exchange.path() == "/") return AnswerPage(scene, exchange);
-    AnswerConnect(**solver, interrupt.token(), exchange);
+    JsonCall call = FindCall(**solver, absl::StripPrefix(exchange.path(), "/ricochet.v1.ImpactService/"));
+    if (exchange.path() == "/answers") call = std::bind_front(PageAnswers, std::cref(**solver));
+    if (exchange.path() == "/cost") call = std::bind_front(CostAnswer, std::cref(**solver));
+    AnswerPost(call, interrupt.token(), exchange);
   };
-  const std::string token = server.token;
-  const absl::StatusOr<std::unique_ptr<WebServer>> web = WebServer::Start(std::move(server));
+  const absl::StatusOr<std::unique_ptr<WebServer>> web = WebServer::Start(address->first, address->second, answer);
   if (!web.ok()) return web.status();
-  std::printf("http://%s/?token=%s\n", (*web)->authority().c_str(), token.c_str());
+  std::printf("%s\n", (*web)->url().c_str());
   std::fflush(stdout);
-  WaitFor(interrupt.token());
+  Interrupt::Wait();
   return absl::OkStatus();
 }
 

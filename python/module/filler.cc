@@ -47,6 +47,9 @@ bool IsZeroOrFalse(PyObject* value) {
   return value == Py_False || (PyLong_CheckExact(value) && PyObject_IsTrue(value) == 0);
 }
 
+// None would silently become the 0 of a number that a message always has.
+bool MayBeAbsent(const FieldDescriptor& field) { return field.has_presence() || field.is_repeated(); }
+
 // The text of a str; nothing if it is none, or none that can be encoded.
 std::optional<absl::string_view> Utf8(PyObject* value) {
   if (!PyUnicode_Check(value)) return std::nullopt;
@@ -164,14 +167,14 @@ void Filler::Fill(py::handle values, Message& message, const Place* place) {
   for (const auto& [key, value] : dictionary) {
     const auto name = Utf8(key.ptr());
     // Python may be asked what the value is, and may change the dictionary then.
-    const py::object held = py::reinterpret_borrow<py::object>(value);
+    const auto held = py::reinterpret_borrow<py::object>(value);
     const Place there = {.outer = place, .name = name.value_or("")};
     if (name.has_value() && MayBeMatrix(type, *name) && FillMatrix(held, message, there, dictionary)) continue;
     const FieldDescriptor* const field = name.has_value() ? type.FindFieldByName(std::string(*name)) : nullptr;
     if (field == nullptr) {
       const std::string shown = py::str(key);
       Ask("unknown_field", Place{.outer = place, .name = shown}.Text(), key, NamesOf(type));
-    } else if (!held.is_none()) {
+    } else if (!held.is_none() || !MayBeAbsent(*field)) {
       FillField(held, message, *field, there);
     }
   }
@@ -239,7 +242,7 @@ void Filler::FillList(py::handle value, Message& message, const Field& field, co
       return;
     }
   }
-  py::object entries = py::reinterpret_borrow<py::object>(value);
+  auto entries = py::reinterpret_borrow<py::object>(value);
   if (field.cpp_type() == Field::CPPTYPE_ENUM || field.cpp_type() == Field::CPPTYPE_STRING) {
     entries = Ask("names", value, place.Text());
   } else if (!PyList_CheckExact(value.ptr()) && !PyTuple_CheckExact(value.ptr())) {

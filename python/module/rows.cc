@@ -27,7 +27,7 @@ using Codes = py::array_t<uint8_t, py::array::c_style>;
 // Writes the numbers of the codes from the place of `first` on.
 template <typename Code>
 void Put(const std::vector<Code>& codes, int64_t first, Codes& to) {
-  std::transform(codes.begin(), codes.end(), to.mutable_data(first),
+  std::transform(codes.begin(), codes.end(), to.mutable_data() + first,
                  [](Code code) { return static_cast<uint8_t>(code); });
 }
 
@@ -41,7 +41,7 @@ py::tuple Counts(const Codes& statuses) {
 }
 
 absl::Span<const double> SpanOf(py::handle column) {
-  const Numbers numbers = py::cast<Numbers>(column);
+  const auto numbers = py::cast<Numbers>(column);
   CheckInvariant(numbers.ptr() == column.ptr() && numbers.ndim() == 1, "a column of a batch needs no copy");
   return {numbers.data(), static_cast<size_t>(numbers.shape(0))};
 }
@@ -87,7 +87,8 @@ struct Points {
   void Take(const SweepChunk& chunk) {
     const int64_t first = chunk.points_done - chunk.count;
     for (py::ssize_t c = 0; c < values.shape(0); ++c) {
-      std::copy_n(chunk.values.data() + c * chunk.count, chunk.count, values.mutable_data(c, first));
+      std::copy_n(chunk.values.data() + c * chunk.count, chunk.count,
+                  values.mutable_data() + c * values.shape(1) + first);
     }
     Put(chunk.regimes, first, regimes);
     Put(chunk.statuses, first, statuses);

@@ -1,8 +1,5 @@
 #include "python/module/scene.h"
 
-#include <google/protobuf/io/tokenizer.h>
-#include <google/protobuf/text_format.h>
-#include <google/protobuf/util/json_util.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -10,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
 #include "core/rows/column.h"
 #include "core/scene/field.h"
+#include "proto/text/message_text.h"
 #include "proto/wire/scene.h"
 #include "python/module/record.h"
 
@@ -31,27 +28,10 @@ struct Paths {
   bool Contains(const std::string& text) const { return std::find(texts.begin(), texts.end(), text) != texts.end(); }
 };
 
-class FirstError final : public google::protobuf::io::ErrorCollector {
- public:
-  void AddError(int line, google::protobuf::io::ColumnNumber column, const std::string& message) override {
-    if (text.empty()) text = absl::StrCat("line ", line + 1, ", column ", column + 1, ": ", message);
-  }
-  std::string text;
-};
-
-// Returns the scene in a text as a dictionary with what the text sets. Raises ValueError that says why it is none.
-py::dict ParseScene(const std::string& text, bool is_json) {
+// Returns the scene in the text of a file as a dictionary with what it sets. Raises ValueError that says why not.
+py::dict ParseScene(const std::string& path, const std::string& text) {
   v1::Scene scene;
-  FirstError error;
-  if (is_json) {
-    const auto status = google::protobuf::util::JsonStringToMessage(text, &scene);
-    if (!status.ok()) error.text = std::string(status.message());
-  } else {
-    google::protobuf::TextFormat::Parser parser;
-    parser.RecordErrorsTo(&error);
-    parser.ParseFromString(text, &scene);
-  }
-  if (!error.text.empty()) throw py::value_error(error.text);
+  if (const std::string wrong = WhyNoMessage(path, text, scene); !wrong.empty()) throw py::value_error(wrong);
   return DictionaryOf(scene);
 }
 

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/floating_point_mode.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
 #include "ricochet/helpers.h"
@@ -99,6 +100,7 @@ void Reduce(const States& states, size_t state, Scene& scene) {
 }
 
 void ReducePart(const States& states, int64_t first, int64_t end) {
+  const DefaultFloatingPoint mode;
   Scene scene;
   auto& mechanism = scene.system.emplace<Mechanism>(states.kept);
   mechanism.jacobian.resize(3 * states.coordinates);

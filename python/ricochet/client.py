@@ -37,7 +37,7 @@ _STATUSES = _core.enum_names("RowStatus")
 _VERDICTS = _core.enum_names("LimitCheck.Verdict")
 _WITHOUT_NUMBERS = [_STATUSES.index(name) for name in ("INVALID", "NOT_REPRESENTABLE")]
 _SIDES = {"both": "value", "below": "from_below", "above": "from_above"}
-_MOST_AUDIT_ROWS = 8192  # Of one call.
+_MOST_AUDIT_ROWS = 8192  # One call takes so many.
 _clients: "weakref.WeakSet[Client]" = weakref.WeakSet()
 
 
@@ -291,7 +291,7 @@ class Client:
         """
         given = names.by_full_name(columns, _core.field_names("AuditColumns"), "columns")
         arrays = {name: _columns_of(name, column) for name, column in given.items()}
-        rows = max((column.shape[-1] for column in arrays.values()), default=0)
+        rows = _row_count([column.shape[-1] for column in arrays.values()])
         index = _index_of(columns, given, rows)
         most = min(self._limit("max_audit_rows"), _MOST_AUDIT_ROWS)
         answers = []
@@ -687,8 +687,13 @@ def _warn_of_invalid(table: Table) -> None:
     warnings.warn(text, InvalidRows, stacklevel=depth + 1)
 
 
+def _row_count(lengths: list[int]) -> int:
+    """Returns the rows of arrays of these lengths, as NumPy broadcasts them: none for an empty one and a number."""
+    return max((length for length in lengths if length != 1), default=min(len(lengths), 1))
+
+
 def _equally_long(arrays: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
-    rows = max(len(array) for array in arrays.values())
+    rows = _row_count([len(array) for array in arrays.values()])
     wrong = [
         Violation(name, f"has shape {array.shape}: must be one number, or {rows} as the longest array")
         for name, array in arrays.items()

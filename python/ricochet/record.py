@@ -9,8 +9,8 @@ from ricochet import _core
 from ricochet.units import unit_of
 from ricochet.values import suggestion
 
-_WIDTH = 110  # Of a record on one line.
-_MOST_ENTRIES = 12  # Of a list in a record for people.
+_WIDTH = 110  # A record on one line is at most so wide.
+_MOST_ENTRIES = 12  # A list in a record for people shows so many.
 
 
 class Record(dict[str, Any]):

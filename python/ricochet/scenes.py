@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 from typing import Any
 
@@ -19,9 +20,9 @@ def read_scene(path: str | os.PathLike[str]) -> dict[str, Any]:
         InvalidRequest: the file is no scene.
         OSError: the file cannot be read.
     """
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
+    with open(path, "rb") as file:
+        text = file.read().removeprefix(codecs.BOM_UTF8)
     try:
-        return _core.parse_scene(text, text.lstrip().startswith("{"))
+        return _core.parse_scene(os.fspath(path), text)
     except ValueError as error:
-        refuse(os.fspath(path), f"is not a scene: {error}")
+        refuse(os.fspath(path), str(error))

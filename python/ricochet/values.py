@@ -118,7 +118,7 @@ def column(values: Any, path: str) -> Numbers:
     """
     if isinstance(values, np.ma.MaskedArray):
         values = values.astype(object).tolist()
-    # Of a list numpy would make numbers whatever it holds: of [0.1, True] and of [0.1, "2"].
+    # Numpy would make numbers of a list whatever it holds: of [0.1, True] and of [0.1, "2"].
     is_mixed = not hasattr(values, "dtype") and is_list(values) and not set(map(type, values)) <= {float}
     try:
         array = np.asarray(values, dtype=object if is_mixed else None)

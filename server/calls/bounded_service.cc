@@ -1,17 +1,17 @@
 #include "server/calls/bounded_service.h"
 
-#include <google/protobuf/io/coded_stream.h>
-#include <google/protobuf/wire_format_lite.h>
 #include <grpc/byte_buffer.h>
 #include <grpc/byte_buffer_reader.h>
 #include <grpc/slice.h>
 #include <grpcpp/support/method_handler.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "proto/wire/message_content.h"
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
 
@@ -19,67 +19,8 @@ namespace ricochet::server {
 namespace {
 
 using google::protobuf::Descriptor;
-using google::protobuf::FieldDescriptor;
-using google::protobuf::internal::WireFormatLite;
-using google::protobuf::io::CodedInputStream;
 
 constexpr int64_t kLeastElements = 16'384;
-constexpr int64_t kLeastBytes = 2;  // An element takes at least a tag and a length.
-constexpr int kMostDepth = 100;     // The parser refuses messages that are nested more deeply.
-
-// Walks through the bytes of a message and counts what it holds.
-class ElementCount {
- public:
-  ElementCount(absl::string_view bytes, int64_t most)
-      : in_(reinterpret_cast<const uint8_t*>(bytes.data()), static_cast<int>(bytes.size())), remaining_(most) {}
-
-  // Reads the fields of one message, or of an unknown group, to their end. `type` is null in an unknown group. Returns
-  // false once there are too many elements, or where the bytes are no message.
-  bool Read(const Descriptor* type, int depth) {
-    if (depth > kMostDepth) return false;
-    while (const uint32_t tag = in_.ReadTag()) {
-      const auto wire_type = WireFormatLite::GetTagWireType(tag);
-      if (wire_type == WireFormatLite::WIRETYPE_END_GROUP) return true;
-      const FieldDescriptor* const field =
-          type == nullptr ? nullptr : type->FindFieldByNumber(WireFormatLite::GetTagFieldNumber(tag));
-      if (!Count(field, wire_type) || !ReadValue(field, tag, depth)) return false;
-    }
-    return true;
-  }
-
-  bool is_exceeded() const { return remaining_ < 0; }
-  // Where the element stands that was one too many.
-  const std::string& place() const { return place_; }
-
- private:
-  // Returns false once there are too many elements.
-  bool Count(const FieldDescriptor* field, WireFormatLite::WireType wire_type) {
-    const bool is_number = field != nullptr && field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE &&
-                           field->cpp_type() != FieldDescriptor::CPPTYPE_STRING &&
-                           wire_type != WireFormatLite::WIRETYPE_START_GROUP;
-    if (is_number || --remaining_ >= 0) return true;
-    place_ = field == nullptr ? "an unknown field" : field->full_name();
-    return false;
-  }
-
-  bool ReadValue(const FieldDescriptor* field, uint32_t tag, int depth) {
-    const auto wire_type = WireFormatLite::GetTagWireType(tag);
-    if (wire_type == WireFormatLite::WIRETYPE_START_GROUP) return Read(nullptr, depth + 1);
-    const bool is_message = field != nullptr && field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE &&
-                            wire_type == WireFormatLite::WIRETYPE_LENGTH_DELIMITED;
-    if (!is_message) return WireFormatLite::SkipField(&in_, tag);
-    int length = 0;
-    if (!in_.ReadVarintSizeAsInt(&length)) return false;
-    const CodedInputStream::Limit end = in_.PushLimit(length);
-    const bool is_read = Read(field->message_type(), depth + 1);
-    in_.PopLimit(end);
-    return is_read;
-  }
-
-  CodedInputStream in_;
-  int64_t remaining_;
-  std::string place_;
-};
 
 absl::Status CheckBytes(int64_t bytes, int64_t most) {
   if (bytes <= most) return absl::OkStatus();
@@ -88,7 +29,7 @@ absl::Status CheckBytes(int64_t bytes, int64_t most) {
                                 most == kMostBytes ? "" : ", the limit max_request_bytes; send a batch in pieces"));
 }
 
-// Lets another handler parse and answer a request, unless it holds too much.
+// Lets another handler parse and answer a request, unless it holds too much or what this server does not know.
 class BoundedHandler final : public grpc::internal::MethodHandler {
  public:
   BoundedHandler(std::unique_ptr<grpc::internal::MethodHandler> handler, const Descriptor& request,
@@ -115,12 +56,10 @@ class BoundedHandler final : public grpc::internal::MethodHandler {
     const auto length = static_cast<int64_t>(grpc_byte_buffer_length(bytes));
     if (absl::Status too_long = CheckBytes(length, bounds_.bytes); !too_long.ok()) return too_long;
     grpc_byte_buffer_reader reader;
-    if (length <= kLeastBytes * bounds_.elements || grpc_byte_buffer_reader_init(&reader, bytes) == 0) {
-      return absl::OkStatus();
-    }
+    if (grpc_byte_buffer_reader_init(&reader, bytes) == 0) return absl::OkStatus();
     const grpc_slice whole = grpc_byte_buffer_reader_readall(&reader);
     const absl::string_view view(reinterpret_cast<const char*>(GRPC_SLICE_START_PTR(whole)), GRPC_SLICE_LENGTH(whole));
-    absl::Status checked = CheckElements(view, request_, bounds_.elements);
+    absl::Status checked = CheckContent(view, request_, bounds_.elements);
     grpc_slice_unref(whole);
     grpc_byte_buffer_reader_destroy(&reader);
     return checked;
@@ -140,24 +79,12 @@ int64_t MostElements(const Limits& limits) {
   return std::max(kLeastElements, 4 * lists + 64);
 }
 
-absl::Status CheckElements(absl::string_view bytes, const Descriptor& type, int64_t most) {
-  ElementCount count(bytes, most);
-  count.Read(&type, 0);
-  if (!count.is_exceeded()) return absl::OkStatus();
-  return MakeError(
-      absl::StatusCode::kResourceExhausted, ErrorReason::kLimitExceeded,
-      absl::StrCat("the request holds more than ", most,
-                   " messages, texts and unknown fields, which no request within the limits does; the first "
-                   "one too many is ",
-                   count.place()));
-}
-
 absl::Status CheckMessage(const grpc::ByteBuffer& bytes, const Descriptor& type, const MessageBounds& bounds) {
   const auto length = static_cast<int64_t>(bytes.Length());
   if (absl::Status too_long = CheckBytes(length, bounds.bytes); !too_long.ok()) return too_long;
   grpc::Slice whole;
-  if (length <= kLeastBytes * bounds.elements || !bytes.DumpToSingleSlice(&whole).ok()) return absl::OkStatus();
-  return CheckElements({reinterpret_cast<const char*>(whole.begin()), whole.size()}, type, bounds.elements);
+  if (!bytes.DumpToSingleSlice(&whole).ok()) return absl::OkStatus();
+  return CheckContent({reinterpret_cast<const char*>(whole.begin()), whole.size()}, type, bounds.elements);
 }
 
 absl::Status BoundedBatches::Parse(v1::SolveBatchRequest& request) {

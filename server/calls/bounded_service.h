@@ -1,10 +1,10 @@
-// BoundedService: ricochet.v1.ImpactService as gRPC sees it, with a bound on what a request may unfold to in memory.
+// BoundedService: ricochet.v1.ImpactService as gRPC sees it, with a bound on what a request may unfold to in memory,
+// and without requests that this server would understand in part only.
 //
-// A message of 1 MiB can hold half a million empty messages, each of which takes a hundred bytes once it is parsed. So
-// the bytes of a large request are read first, without keeping anything: one that holds more messages, texts and
-// unknown fields than any request within the limits is refused with RESOURCE_EXHAUSTED and ErrorReason::kLimitExceeded,
-// and is never parsed. Requests that are too small to hold that many are parsed at once. Batches may have as many bytes
-// as Limits::max_request_bytes, all other requests at most 1 MiB.
+// The bytes of a request are read first, without keeping anything (proto/wire/message_content.h): one that holds more
+// messages and texts than any request within the limits is refused with RESOURCE_EXHAUSTED and
+// ErrorReason::kLimitExceeded, one with fields or enum values that this server does not know with INVALID_ARGUMENT, and
+// is never parsed. Batches may have as many bytes as Limits::max_request_bytes, all other requests at most 1 MiB.
 
 #ifndef RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_
 #define RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_
@@ -31,7 +31,7 @@ namespace ricochet::server {
 // The most bytes of a request that is no batch.
 inline constexpr int64_t kMostBytes = int64_t{1} << 20;
 
-// The bounds on one request: its bytes, and the messages, texts and unknown fields in it.
+// The bounds on one request: its bytes, and the messages and texts in it.
 struct MessageBounds {
   int64_t bytes = 0;
   int64_t elements = 0;
@@ -91,19 +91,14 @@ class BoundedService final : public grpc::Service {
   UnreadWatch& unread_;
 };
 
-// The most messages, texts and unknown fields that a request may hold: at least 16,384, and more than any request
-// within the limits has.
+// The most messages and texts that a request may hold: at least 16,384, and more than any request within the limits
+// has.
 int64_t MostElements(const Limits& limits);
 
 // Bounds a message of type `type`.
-// Errors: RESOURCE_EXHAUSTED with ErrorReason::kLimitExceeded.
+// Errors: those of CheckContent, and RESOURCE_EXHAUSTED with ErrorReason::kLimitExceeded for too many bytes.
 absl::Status CheckMessage(const grpc::ByteBuffer& bytes, const google::protobuf::Descriptor& type,
                           const MessageBounds& bounds);
-
-// Counts the messages, texts and unknown fields that the bytes of a message of type `type` hold.
-// Errors: RESOURCE_EXHAUSTED with ErrorReason::kLimitExceeded as soon as there are more than `most`. Bytes that are no
-// message are left to the parser.
-absl::Status CheckElements(absl::string_view bytes, const google::protobuf::Descriptor& type, int64_t most);
 
 }  // namespace ricochet::server
 

@@ -74,6 +74,17 @@ TEST_F(Connection, FlagComesBeforeEnvironmentBeforeFile) {
   EXPECT_EQ(RunShell("RICOCHET_SERVER= RICOCHET_CONFIG=config \"$R\" health").out, "SERVING\n");
 }
 
+// No host has 192.0.2.1, which is reserved for documentation, so that only a proxy could answer for it.
+TEST_F(Connection, ProxyOfTheEnvironmentIsNotAskedForThisHost) {
+  const ServerProcess server;
+  const std::string port = server.address().substr(server.address().rfind(':'));
+  const std::string run = "http_proxy=http://127.0.0.1:1 \"$R\" health --deadline 5s --server ";
+  for (const char* const host : {"127.0.0.1", "localhost", "dns:///localhost"}) {
+    EXPECT_EQ(RunShell(run + host + port).out, "SERVING\n") << host;
+  }
+  EXPECT_THAT(RunShell(run + "192.0.2.1:50051").err, HasSubstr("127.0.0.1:1: "));
+}
+
 TEST_F(Connection, UnknownLineOfTheFileIsRefused) {
   Write("config", "server = \"127.0.0.1:1\"\nspeed = 1\n");
   const CliResult result = Run({"health", "--config", "config"});

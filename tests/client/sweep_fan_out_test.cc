@@ -105,7 +105,7 @@ TEST_F(SweepFanOutTest, AServerThatStandsStillChangesNothing) {
 }
 
 TEST_F(SweepFanOutTest, AnAddressWithoutAServerChangesNothing) {
-  for (const size_t place : {0, 1}) {
+  for (const size_t place : {0u, 1u}) {
     std::vector<std::string> addresses = {servers_[0].address(), servers_[1].address()};
     addresses.insert(addresses.begin() + static_cast<std::ptrdiff_t>(place), kNobody);
     const CollectedSweep shared = Collect(FanOutOver(addresses).Sweep(MixedSweep(kPoints)));

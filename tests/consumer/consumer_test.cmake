@@ -17,6 +17,8 @@ file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
 build_consumer()
 expect_answer(${WORK_DIR}/build/consumer)
+run(${WORK_DIR}/build/eigen_consumer)
+expect_output(${WORK_DIR}/build/native_eigen_consumer "${output}")
 build_by_pkg_config(main.cc ${WORK_DIR}/build/plain_consumer ricochet-core)
 expect_answer(${WORK_DIR}/build/plain_consumer)
 

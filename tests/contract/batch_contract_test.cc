@@ -160,10 +160,10 @@ TEST_P(BatchContract, ABadRowSpoilsNoOther) {
   ASSERT_TRUE(solver().SolveBatch(Contacts(), good.Rows()).ok());
   const auto response = solver().SolveBatch(Contacts(), mixed.Rows());
   ASSERT_TRUE(response.ok()) << response.status();
-  for (const size_t row : {0, 3}) {
+  for (const size_t row : {0u, 3u}) {
     for (size_t c = 0; c < 2; ++c) EXPECT_EQ(mixed.out[c][row], good.out[c][row]);
   }
-  for (const size_t row : {1, 2, 4}) {
+  for (const size_t row : {1u, 2u, 4u}) {
     for (size_t c = 0; c < 2; ++c) EXPECT_TRUE(std::isnan(mixed.out[c][row]));
   }
   EXPECT_THAT(mixed.statuses, ElementsAre(RowStatus::kOk, RowStatus::kInvalid, RowStatus::kInvalid, RowStatus::kOk,

@@ -37,7 +37,7 @@ Chunks Read(CostStream stream) {
 }
 
 // One sample makes a test short.
-CostRequest Request(const Scene& scene) { return {.scene = scene, .time_limit_s = 5.0, .samples = 1}; }
+CostRequest Request(const Scene& scene) { return {.scene = scene, .time_limit_s = 30.0, .samples = 1}; }
 
 // Sets aside the times of a chunk, and what follows from them.
 CostChunk WithoutTimes(CostChunk chunk) {
@@ -82,9 +82,10 @@ TEST_P(CostContract, BeginsWithNoRowAndEndsWithTheSummary) {
 
 TEST_P(CostContract, AnswersThePendulumWithinItsTimeLimit) {
   const auto start = steady_clock::now();
-  const Chunks chunks = Read(solver().Cost({.scene = PaperScene()}));
+  const Chunks chunks = Read(solver().Cost({.scene = PaperScene(), .samples = kMostCostSamples}));
   ASSERT_TRUE(chunks.back().ok()) << chunks.back().status();
-  EXPECT_LT(steady_clock::now() - start, std::chrono::seconds(5));
+  // So many samples would take nearly a minute. The limit is 3 s, and the rest is for a busy machine.
+  EXPECT_LT(steady_clock::now() - start, std::chrono::seconds(30));
   EXPECT_EQ(chunks.back()->summary->deceived, 0);
   EXPECT_FALSE(chunks.back()->summary->front.empty());
 }
@@ -119,7 +120,7 @@ TEST_P(CostContract, AStopFromAnotherThreadEndsIt) {
     if (chunks.size() == 2) std::jthread([&stop] { stop.request_stop(); }).join();
   }
   EXPECT_EQ(chunks.back().status().code(), absl::StatusCode::kCancelled) << chunks.back().status();
-  // Those that were on their way may still arrive, but not all.
+  // Rows that were on their way may still arrive, but not all.
   EXPECT_LT(chunks.size(), Read(solver().Cost(Request(PaperScene()))).size());
 }
 

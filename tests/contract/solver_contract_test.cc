@@ -494,7 +494,7 @@ TEST_P(SolverContract, AuditsOfABatchAreThoseOfItsRowsAndABadRowSpoilsNoOther) {
   const auto batch = solver().AuditBatch(request);
   ASSERT_TRUE(batch.ok()) << batch.status();
   ASSERT_EQ(batch->reports.size(), 4);
-  for (const size_t row : {0, 2, 3}) {
+  for (const size_t row : {0u, 2u, 3u}) {
     PlanarContact contact = Contact();
     contact.tangential_m_s = request.columns.tangential_m_s[row];
     Scene scene = With(contact);
@@ -539,7 +539,7 @@ TEST_P(SolverContract, AuditOfABatchByRatesIsThatOfEachRowsRates) {
   const auto batch = solver().AuditBatch(request);
   ASSERT_TRUE(batch.ok()) << batch.status();
   ASSERT_EQ(batch->reports.size(), rates.size());
-  for (const size_t row : {0, 1}) {
+  for (const size_t row : {0u, 1u}) {
     ObservedRates observed;
     for (size_t link = 0; link < links; ++link) observed.rates_rad_s.push_back(0.125);
     observed.rates_rad_s.back() = rates[row];

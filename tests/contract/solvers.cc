@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <utility>
 
 #include "ricochet/client.h"
@@ -17,7 +18,8 @@ const Solver& Local() {
 
 const Solver& Remote() {
   static const ServerProcess server;
-  static const Client client = Client::Connect({.target = server.address()}).value();
+  static const Client client =
+      Client::Connect({.target = server.address(), .deadline = std::chrono::minutes(1)}).value();
   return client;
 }
 

@@ -212,7 +212,7 @@ def tokens():
         return answers
 
 
-# What each scope lets its caller do, as deploy/README.md states it under "Tokens".
+# Each scope lets its caller do this, as deploy/README.md states it under "Tokens".
 SCOPES = {
     "solve": {"Solve", "SolveBatch", "SolveBatches", "Plan", "Bounds", "MultiContact"},
     "sweep": {"Sweep"},

@@ -292,15 +292,16 @@ def odd_envelopes():
             "unknown service": ask("/no.Service/Nothing", b""),
             "no path": ask("/", b""),
             "nesting": ask(solve, nested),
+            "cut off": ask(solve, b"\x0a\x7f\x00"),
             "groups": ask(solve, b"\x0b" * 100000 + b"\x0c" * 100000),
             "unknown fields": ask(solve, cheap().SerializeToString() + b"\xf8\x7f\x01" * 1000),
             "1 MiB": ask(solve, cheap().SerializeToString() + b"\xfa\x7f" + b"\xc0\xff\x3f" + bytes(1048512)),
             "2 MiB": ask(solve, bytes(2 << 20)),
         }
         require(answers["unknown method"] == answers["unknown service"] == "UNIMPLEMENTED", f"{answers}")
-        require(answers["unknown fields"] == "OK", f"{answers}")
+        require(answers["unknown fields"] == "INVALID_ARGUMENT", f"{answers}")
         require(answers["2 MiB"] == "RESOURCE_EXHAUSTED", f"{answers}")
-        require(answers["groups"] == "INVALID_ARGUMENT", f"{answers}")
+        require(answers["groups"] == answers["cut off"] == "INVALID_ARGUMENT", f"{answers}")
         require(wait_until(lambda: "reason=MALFORMED_REQUEST" in server.log_text(), 5),
                 "a message that cannot be read is not in the log")
         require_served(server)

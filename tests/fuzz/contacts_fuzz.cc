@@ -30,7 +30,7 @@ namespace {
 constexpr size_t kMostContactsTried = 4;
 constexpr size_t kMostStates = 2;
 
-// What a number may err by beside the error that it states: the rounding of its sum, on the scale of its terms.
+// A number may err by this beside the error that it states: the rounding of its sum, on the scale of its terms.
 constexpr double kRounding = 0x1p-40;
 
 double LargestOf(const std::vector<double>& numbers) {

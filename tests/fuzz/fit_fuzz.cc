@@ -32,7 +32,7 @@ constexpr size_t kMostUnknownsTried = 3;
 constexpr int32_t kMostStartsTried = 2;
 constexpr int32_t kMostIterationsTried = 20;
 
-// What sums of squares may differ by through rounding.
+// Sums of squares may differ by this through rounding.
 constexpr double kRounding = 1e-9;
 
 bool IsSmall(const FitRequest& request) {

@@ -77,7 +77,7 @@ Slack SlackOf(const Scene& scene, const Outcome& outcome) {
   const double changed = speed + mobility * impulse;
   const double unseen = error * speed / normal_mobility;
   return {.work = error * changed * impulse + unseen * speed + ErrorOfWorks(outcome) + kSmallest,
-          .impulse = 2.0 * error * impulse + unseen + kSmallest};
+          .impulse = error * (2.0 * impulse) + unseen + kSmallest};
 }
 
 bool IsCoulomb(const Scene& scene) { return std::holds_alternative<std::monostate>(scene.impact_law); }
@@ -101,7 +101,7 @@ void CheckNumbers(const Outcome& outcome) {
   if (outcome.admissible != outcome.broken_limits.empty()) Fail("admissible against broken_limits");
 }
 
-// What the ledger may be open by: the stated errors, if there are such, and the rounding of its own sum.
+// The ledger may be open by this: the stated errors, if there are such, and the rounding of its own sum.
 double LedgerSlack(const Outcome& outcome, double slack) {
   const std::optional<double> stated = StatedErrorOfWorks(outcome);
   if (!stated.has_value()) return slack;

@@ -66,7 +66,7 @@ Scene SceneAt(const BoundsRequest& request, size_t place) {
   return scene;
 }
 
-// What the bounds of one scene may be wrong by, relative to their size: the rounding of W moves det W/(Wtt Wnn), which
+// The bounds of one scene may be wrong by this, relative to their size: the rounding of W moves det W/(Wtt Wnn), which
 // the contact divides by where it sticks, by some 2^-48. Infinite if rounding alone may have given bodies or a linkage
 // a W of rank one, which a pendulum has and which a contact states.
 double RoundingOf(const Scene& scene) {

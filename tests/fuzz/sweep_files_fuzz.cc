@@ -39,7 +39,7 @@ constexpr const char* kNames[] = {"pendulum.a_m",
                                   "energy_change_j",
                                   "nobody.knows"};
 constexpr nc_type kTypes[] = {NC_DOUBLE, NC_DOUBLE, NC_BYTE, NC_CHAR, NC_FLOAT, NC_INT};
-constexpr size_t kLongest = 6;  // Of a dimension.
+constexpr size_t kLongest = 6;  // The most in a dimension.
 
 void PutText(int file, int variable, const char* name, const std::string& text) {
   nc_put_att_text(file, variable, name, text.size(), text.data());

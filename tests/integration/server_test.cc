@@ -170,6 +170,7 @@ TEST(Server, CallIsOneLogLineThatParses) {
   const ServerProcess server({"--log-format", "json"});
   const auto stub = MakeStub(server);
   ASSERT_TRUE(Solve(*stub).ok());
+  server.WaitForLog(R"("status":"OK")");  // A call is recorded after its answer, perhaps after the next call's.
   v1::Scene bad = PaperScene();
   bad.clear_restitution();
   ASSERT_FALSE(Solve(*stub, bad).ok());

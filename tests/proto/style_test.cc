@@ -113,6 +113,16 @@ const std::set<std::string>& WithoutUnit() {
   return names;
 }
 
+// True if a message of type `outer` may hold one of type `inner`, at any depth.
+bool Holds(const Descriptor& outer, const Descriptor& inner, std::set<const Descriptor*>& seen) {
+  for (int i = 0; i < outer.field_count(); ++i) {
+    const Descriptor* const type = outer.field(i)->message_type();
+    if (type == &inner) return true;
+    if (type != nullptr && seen.insert(type).second && Holds(*type, inner, seen)) return true;
+  }
+  return false;
+}
+
 class Lint {
  public:
   void Check(const FileDescriptor& file) {
@@ -126,6 +136,9 @@ class Lint {
  private:
   void Check(const Descriptor& message) {
     Match(message.full_name(), message.name(), "([A-Z][a-z0-9]*)+");
+    // The server reads a request as deep as its types go (proto/wire/message_content.h).
+    std::set<const Descriptor*> seen;
+    if (Holds(message, message, seen)) faults_.push_back(message.full_name() + " must not contain itself");
     for (int i = 0; i < message.field_count(); ++i) Check(*message.field(i));
     for (int i = 0; i < message.nested_type_count(); ++i) Check(*message.nested_type(i));
     for (int i = 0; i < message.enum_type_count(); ++i) Check(*message.enum_type(i));
@@ -219,6 +232,23 @@ TEST(ProtoStyleTest, SeesEachKindOfFault) {
   EXPECT_THAT(faults, ElementsAre(testing::StartsWith("Bad_name: "), testing::StartsWith("Bad_name.camelCase: "),
                                   testing::StartsWith("Bad_name.length: "), testing::StartsWith("Bad_name.count is"),
                                   testing::StartsWith("NONE: "), testing::StartsWith("Kind: ")));
+}
+
+TEST(ProtoStyleTest, SeesAMessageThatContainsItself) {
+  FileDescriptorSet files;
+  FileDescriptorProto& file = *files.add_file();
+  file.set_name("a.proto");
+  file.set_syntax("proto3");
+  const char* const names[] = {"Outer", "Inner"};
+  for (size_t i = 0; i < 2; ++i) {
+    auto& message = *file.add_message_type();
+    message.set_name(names[i]);
+    auto& field = *message.add_field();
+    field.set_name("other");
+    field.set_number(1);
+    field.set_type_name(names[1 - i]);
+  }
+  EXPECT_THAT(FaultsOf(files), ElementsAre("Outer must not contain itself", "Inner must not contain itself"));
 }
 
 }  // namespace

@@ -100,6 +100,17 @@ class Numbers(Case):
         scene = {**PENDULUM, "friction": {"kinetic_coefficient": decimal.Decimal("nan")}}
         self.refused(lambda: ricochet.solve(scene), MU)
 
+    def test_none_leaves_out_only_what_may_be_unset(self):
+        for value in (None, {"kinetic_coefficient": 0.1, "static_coefficient": None}):
+            scene = {**PENDULUM, "restitution": {"energetic": 0.5, "newton": None}, "friction": value}
+            given = {key: entry for key, entry in (value or {}).items() if entry is not None}
+            self.assertEqual(ricochet.solve(scene),
+                             ricochet.solve({**PENDULUM, "restitution": {"energetic": 0.5}, "friction": given}))
+        scene = {**PENDULUM, "friction": {"kinetic_coefficient": None}}
+        self.refused(lambda: ricochet.solve(scene), MU, "= None: must be a number")
+        scene = {"planar_contact": {"w_tt_per_kg": 1, "w_nn_per_kg": 1, "normal_m_s": None}}
+        self.refused(lambda: ricochet.solve(scene), "planar_contact.normal_m_s", "= None: must be a number")
+
     def test_what_is_missing_is_nan_and_makes_the_row_invalid(self):
         for column in ([0.1, None], pandas.Series([0.1, pandas.NA]), pandas.array([0.1, None], dtype="Float64"),
                        np.ma.masked_array([0.1, 0.2], [False, True]), pandas.Series([0.1, np.nan])):
@@ -159,6 +170,24 @@ class Matrices(Case):
 
 
 class Frames(Case):
+    def test_no_rows_are_a_table_without_rows(self):
+        tables = {
+            "batch": ricochet.solve_batch(PENDULUM, {MU: []}, NEWTON),
+            "batch beside a number": ricochet.solve_batch(PENDULUM, {MU: [], "a": 0.3}, NEWTON),
+            "batch of a frame": ricochet.solve_batch(PENDULUM, pandas.DataFrame({MU: []}), NEWTON),
+            "audit": ricochet.audit_batch(PENDULUM, {"normal_after_m_s": []}),
+            "audit beside a number": ricochet.audit_batch(
+                PENDULUM, {"normal_after_m_s": [], "tangential_after_m_s": 0.1}),
+            "states": ricochet.at_contact(np.eye(3), np.eye(3), np.empty((0, 3)), [0, 0, 1], energetic=0).answer,
+        }
+        for what, table in tables.items():
+            with self.subTest(what):
+                self.assertEqual((len(table), len(table.to_pandas()), table.summary.rows), (0, 0, 0))
+                self.assertIsInstance(str(table), str)
+        self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: [], "a": [0.3, 0.4]}, NEWTON), MU,
+                     "must be one number, or 2 as the longest array")
+        self.refused(lambda: ricochet.sweep(PENDULUM, {MU: []}, NEWTON), "axes[0].list.values", "is empty")
+
     def test_an_index_is_kept(self):
         frame = pandas.DataFrame({MU: [0.0, 0.1]}, index=[7, 9])
         table = ricochet.solve_batch(PENDULUM, frame, NEWTON)
@@ -220,6 +249,43 @@ class ShortNames(Case):
             text = command_line("sweep", "--scene", path, "--column", "?").stdout
             listed = re.findall(r"^ *([a-z]\S*(?:\.\S+|\]))", text, re.M)
             self.check_names(path, known._columns(), listed, "column")
+
+    def test_a_file_is_read_as_the_command_line_reads_it(self):
+        spatial = '{"spatial_contact": {"w_per_kg": %s, "tangential_m_s": [1, 0], "normal_m_s": -1}}'
+        pendulum = '{"pendulum": {"inertia_kg_m2": 1, "a_m": %s, "omega_minus_rad_s": -1}}'
+        files = {
+            "matrix.json": spatial % "[[2, 0, 0.5], [0, 2, 0], [0.5, 0, 1]]",
+            "list.json": spatial % "[2, 0, 0.5, 2, 0, 1]",
+            "uneven.json": spatial % "[[2, 0], [0, 2, 0]]",
+            "mark.json": "\ufeff" + pendulum % 1,
+            "camel.json": pendulum.replace('"a_m"', '"aM"') % 1,
+            "brace": pendulum % 1,
+            "null.json": pendulum % "null",
+            "twice.json": pendulum % '1, "a_m": 2',
+            "unknown.json": pendulum.replace('"a_m"', '"am"') % 1,
+            "text.textproto": "pendulum { inertia_kg_m2: 1 a_m: 1 omega_minus_rad_s: -1 }",
+            "unknown.textproto": "pendulum { am: 1 }",
+            "two.textproto": "pendulum {} planar_body {}",
+            "several.textproto": "contacts { friction: 1 }",
+            "empty.json": "",
+        }
+        right = ("matrix.json", "list.json", "mark.json", "camel.json", "brace", "text.textproto")
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                path = Path(folder, name)
+                path.write_text(text, encoding="utf-8")
+                printed = command_line("scene", "print", "--scene", path, "--json")
+                with self.subTest(name):
+                    self.assertEqual(printed.returncode == 0, name in right, printed.stderr)
+                    if name in right:
+                        again = Path(folder, "printed.json")
+                        again.write_text(printed.stdout, encoding="utf-8")
+                        self.assertEqual(ricochet.Scene(ricochet.read_scene(path)),
+                                         ricochet.Scene(ricochet.read_scene(again)))
+                        continue
+                    with self.assertRaises(ricochet.InvalidRequest) as raised:
+                        ricochet.read_scene(path)
+                    self.assertEqual(printed.stderr.strip(), f"ricochet: INVALID_ARGUMENT: {raised.exception}")
 
     def check_names(self, path, known, listed, what):
         """Every end of a listed path means that path here exactly if the command line takes it for that path."""

@@ -7,7 +7,7 @@ import numpy as np
 import ricochet
 from support import PENDULUM, main, vectors
 
-ULPS = 4  # What tolerance 0 promises for a pendulum.
+ULPS = 4  # Tolerance 0 promises this for a pendulum.
 LAWS = ("newton", "poisson", "energetic")
 
 
@@ -199,7 +199,7 @@ class BoundsAndAudits(unittest.TestCase):
     def test_a_limit_of_no_row_is_refused(self):
         client = ricochet.Client()
         for limit in (0, -1):
-            client._limits = {"max_audit_rows": limit}  # As a server that is wrong would state it.
+            client._limits = {"max_audit_rows": limit}  # A server that is wrong would state it so.
             with self.assertRaisesRegex(ricochet.RicochetError, f"max_audit_rows = {limit}: must be >= 1"):
                 client.audit_batch(PENDULUM, {"rates_after": [0.1, 0.2]})
 

@@ -55,6 +55,21 @@ def run(code, **environment):
 
 
 class Alone(unittest.TestCase):
+    def test_grpc_stays_until_the_process_ends(self):
+        # A thread of gRPC that ended it after the last client would crash a process that ends meanwhile.
+        code = """
+            import ctypes, time
+            import ricochet
+            with ricochet.Client("127.0.0.1:1", deadline=0.2) as client:
+                try:
+                    client.info()
+                except ricochet.RicochetError:
+                    print("nobody answers")
+            time.sleep(0.5)
+            print(ctypes.CDLL("libgrpc.so.29").grpc_is_initialized())
+            """
+        self.assertEqual(run(code), "nobody answers\n1\n")
+
     def test_no_server_and_no_other_package_is_needed(self):
         code = f"""
             import os, sys
@@ -193,6 +208,11 @@ class OtherProcesses(unittest.TestCase):
 
 
 class Interrupts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        # A shell starts a program in the background with this signal ignored.
+        cls.addClassCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+
     def interrupted(self, call):
         """Returns the time from a Ctrl-C to the KeyboardInterrupt that ends the call, s."""
         sent = []

@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 
 // Adds an answer after checking it. `where` names its place in the file.
 absl::Status Add(const std::string& where, const std::string& name, const std::string& law,
-                 std::vector<double> velocity, SimulatorAnswers& all) {
+                 const std::vector<double>& velocity, SimulatorAnswers& all) {
   const absl::StatusOr<const ConformanceCase*> asked = FindConformanceCase(name, absl::StrCat(where, ".case"));
   if (!asked.ok()) return asked.status();
   if (absl::Status status = CheckConformanceLaw(law, absl::StrCat(where, ".law")); !status.ok()) return status;
@@ -37,7 +37,10 @@ absl::Status Add(const std::string& where, const std::string& name, const std::s
     return absl::InvalidArgumentError(
         absl::StrCat(where, ".velocity_after of ", name, ": must have finite numbers; leave out a case without any"));
   }
-  all.answers.push_back({.asked = *asked, .law = law, .velocity_after = std::move(velocity)});
+  all.answers.push_back(
+      {.asked = *asked,
+       .law = law,
+       .velocity_after = Eigen::VectorXd::Map(velocity.data(), static_cast<Eigen::Index>(velocity.size()))});
   return absl::OkStatus();
 }
 
@@ -117,7 +120,7 @@ absl::StatusOr<SimulatorAnswers> ReadCsv(const std::string& text, const std::str
       if (!number.ok()) return number.status();
       velocity.push_back(*number);
     }
-    absl::Status status = Add(where, cells[0], cells.size() > 1 ? cells[1] : "", std::move(velocity), all);
+    absl::Status status = Add(where, cells[0], cells.size() > 1 ? cells[1] : "", velocity, all);
     if (!status.ok()) return status;
   }
   return all;

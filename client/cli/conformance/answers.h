@@ -16,8 +16,8 @@ inline const std::vector<std::string> kConformanceLaws = {"newton", "poisson", "
 
 struct SimulatorAnswer {
   const ConformanceCase* asked = nullptr;
-  std::string law;                     // The law that the simulator says it obeys; empty if it says none.
-  std::vector<double> velocity_after;  // One number for each coordinate of the case.
+  std::string law;                 // The law that the simulator says it obeys; empty if it says none.
+  Eigen::VectorXd velocity_after;  // One number for each coordinate of the case.
 };
 
 struct SimulatorAnswers {

@@ -13,6 +13,7 @@ extern const absl::string_view kConformanceCases;
 
 namespace {
 
+using Eigen::VectorXd;
 using Json = nlohmann::ordered_json;
 
 const Json& Document() {
@@ -20,26 +21,41 @@ const Json& Document() {
   return *document;
 }
 
+VectorXd VectorOf(const Json& json) {
+  const std::vector<double> numbers = json;
+  return VectorXd::Map(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+}
+
+Eigen::MatrixXd MatrixOf(const Json& rows) {
+  Eigen::MatrixXd matrix(rows.size(), rows[0].size());
+  for (size_t i = 0; i < rows.size(); ++i) matrix.row(static_cast<Eigen::Index>(i)) = VectorOf(rows[i]).transpose();
+  return matrix;
+}
+
 ConformanceCase FromJson(const Json& json) {
-  ConformanceCase one{.name = json["name"],
-                      .family = json["family"],
-                      .shows = json["shows"],
-                      .source = json["source"],
-                      .dimension = json["dimension"],
-                      .coordinates = json["coordinates"],
-                      .mass = json["mass_matrix"],
-                      .jacobian = json["jacobian"],
-                      .before = json["velocity_before"],
-                      .frame = json.value("frame_velocity", std::vector<double>(json["velocity_before"].size())),
-                      .symmetries = json.value("symmetries", std::vector<std::vector<int>>())};
-  for (const Json& contact : json["contacts"]) {
-    one.friction.push_back(contact["friction"]);
-    one.coefficient.push_back(contact["coefficient"]);
+  ConformanceCase one{
+      .name = json["name"],
+      .family = json["family"],
+      .shows = json["shows"],
+      .source = json["source"],
+      .dimension = json["dimension"],
+      .friction = VectorXd(json["contacts"].size()),
+      .coefficient = VectorXd(json["contacts"].size()),
+      .coordinates = json["coordinates"],
+      .mass = MatrixOf(json["mass_matrix"]),
+      .jacobian = MatrixOf(json["jacobian"]),
+      .before = VectorOf(json["velocity_before"]),
+      .frame = VectorOf(json.value("frame_velocity", Json(std::vector<double>(json["velocity_before"].size())))),
+      .symmetries = json.value("symmetries", std::vector<std::vector<int>>())};
+  for (Eigen::Index i = 0; i < one.friction.size(); ++i) {
+    const Json& contact = json["contacts"][static_cast<size_t>(i)];
+    one.friction(i) = contact["friction"];
+    one.coefficient(i) = contact["coefficient"];
   }
   for (const Json& answer : json["answers"]) {
     one.answers.push_back({.law = answer["law"],
                            .also = answer.value("also", std::vector<std::string>()),
-                           .velocity_after = answer["velocity_after"]});
+                           .velocity_after = VectorOf(answer["velocity_after"])});
   }
   return one;
 }

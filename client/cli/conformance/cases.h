@@ -3,6 +3,7 @@
 #ifndef RICOCHET_CLIENT_CLI_CONFORMANCE_CASES_H_
 #define RICOCHET_CLIENT_CLI_CONFORMANCE_CASES_H_
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -10,23 +11,21 @@
 
 namespace ricochet::cli {
 
-using Matrix = std::vector<std::vector<double>>;
-
 struct RightAnswer {
   // newton, poisson or energetic at one contact; at several "springs" or an order of impacts, "order 1-2".
   std::string law;
-  std::vector<std::string> also;       // Other orders, or springs, that end with the same velocities.
-  std::vector<double> velocity_after;  // One number for each coordinate.
+  std::vector<std::string> also;   // Other orders, or springs, that end with the same velocities.
+  Eigen::VectorXd velocity_after;  // One number for each coordinate.
 };
 
 // An impact as M, J and q' before; `frame` moves with the surface, and is 0 where that is at rest.
 struct ConformanceCase {
   std::string name, family, shows, source;
-  int dimension = 0;                          // Numbers of each contact: 2 in a plane, 3 in space.
-  std::vector<double> friction, coefficient;  // One of both for each contact.
+  int dimension = 0;                      // Numbers of each contact: 2 in a plane, 3 in space.
+  Eigen::VectorXd friction, coefficient;  // One of both for each contact.
   std::vector<std::string> coordinates;
-  Matrix mass, jacobian;
-  std::vector<double> before, frame;
+  Eigen::MatrixXd mass, jacobian;
+  Eigen::VectorXd before, frame;
   std::vector<std::vector<int>> symmetries;  // Each maps coordinates to coordinates: -3 is minus the third.
   std::vector<RightAnswer> answers;
 

@@ -1,126 +1,75 @@
 #include "client/cli/conformance/cone_distance.h"
 
-#include <cmath>
-#include <cstddef>
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <optional>
+#include <vector>
 
 namespace ricochet::cli {
 namespace {
 
-using Vector = std::vector<double>;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
-// Below this share of a diagonal entry a pivot is rounding: the vectors depend on each other.
-constexpr double kDependent = 1e-13;
+// Columns that are combinations of the others to this share are taken for dependent.
+constexpr double kDependent = 3e-7;
 
-// Solves a symmetric positive definite system by elimination; nothing if it is singular.
-std::optional<Vector> Solve(Matrix a, Vector b) {
-  const size_t n = b.size();
-  const Matrix original = a;
-  for (size_t i = 0; i < n; ++i) {
-    if (!(a[i][i] > kDependent * original[i][i])) return std::nullopt;
-    for (size_t j = i + 1; j < n; ++j) {
-      const double factor = a[j][i] / a[i][i];
-      for (size_t k = i; k < n; ++k) a[j][k] -= factor * a[i][k];
-      b[j] -= factor * b[i];
+// Returns the x that makes |a x - b| least; nothing if the columns of a depend on each other.
+std::optional<VectorXd> LeastSquares(const MatrixXd& a, const VectorXd& b) {
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(a.rows(), a.cols());
+  qr.setThreshold(kDependent).compute(a);
+  return qr.rank() == a.cols() ? std::optional<VectorXd>(qr.solve(b)) : std::nullopt;
+}
+
+// Returns the tangential directions, as columns, of the edges of a pyramid inside a friction cone. In space one of them
+// is that of the impulse by which the effects cause the change, if there is one.
+MatrixXd Edges(int dimension, const MatrixXd& effects, const VectorXd& change) {
+  if (dimension == 2) return Eigen::RowVector2d(1.0, -1.0);
+  const std::optional<VectorXd> impulse = LeastSquares(effects, change);
+  Eigen::Vector2d along(1.0, 0.0);
+  if (impulse.has_value() && !impulse->head<2>().isZero(0.0)) along = impulse->head<2>().normalized();
+  const Eigen::Vector2d across(-along(1), along(0));
+  MatrixXd edges(2, 4);
+  edges << along, -along, across, -across;
+  return edges;
+}
+
+// Returns the impulses along the edges of all cones, as columns. A cone without friction has one edge.
+MatrixXd EdgeImpulses(const ConformanceCase& one, const MatrixXd& edges) {
+  std::vector<VectorXd> impulses;
+  for (Eigen::Index contact = 0; contact < one.friction.size(); ++contact) {
+    for (Eigen::Index i = 0; i < (one.friction(contact) == 0.0 ? 1 : edges.cols()); ++i) {
+      VectorXd& impulse = impulses.emplace_back(VectorXd::Zero(one.jacobian.rows()));
+      impulse.segment(contact * one.dimension, one.dimension) << one.friction(contact) * edges.col(i), 1.0;
     }
   }
-  for (size_t i = n; i-- > 0;) {
-    for (size_t k = i + 1; k < n; ++k) b[i] -= a[i][k] * b[k];
-    b[i] /= a[i][i];
-  }
-  return b;
-}
-
-// An impulse of unit size: the momentum that it gives, and the change of velocity.
-struct Effect {
-  Vector momentum, velocity;
-};
-
-Effect EffectOf(const ConformanceCase& one, const Vector& impulse) {
-  Effect effect{.momentum = Vector(one.before.size())};
-  for (size_t row = 0; row < impulse.size(); ++row) {
-    for (size_t i = 0; i < effect.momentum.size(); ++i) effect.momentum[i] += one.jacobian[row][i] * impulse[row];
-  }
-  effect.velocity = *Solve(one.mass, effect.momentum);
-  return effect;
-}
-
-// Returns by how much of each effect the change is caused, with the least kinetic energy left; nothing if the effects
-// depend on each other.
-std::optional<Vector> Shares(const std::vector<Effect>& effects, const Vector& change) {
-  Matrix products(effects.size(), Vector(effects.size()));
-  Vector right(effects.size());
-  for (size_t i = 0; i < effects.size(); ++i) {
-    for (size_t j = 0; j < effects.size(); ++j) products[i][j] = Dot(effects[i].momentum, effects[j].velocity);
-    right[i] = Dot(effects[i].momentum, change);
-  }
-  return Solve(products, right);
-}
-
-// Directions along which a pyramid inside the friction cone of a contact has its edges.
-std::vector<Vector> Edges(const ConformanceCase& one, const Vector& change) {
-  if (one.dimension == 2) return {{1.0}, {-1.0}};
-  const std::optional<Vector> impulse =
-      Shares({EffectOf(one, {1, 0, 0}), EffectOf(one, {0, 1, 0}), EffectOf(one, {0, 0, 1})}, change);
-  const double length = impulse.has_value() ? std::hypot((*impulse)[0], (*impulse)[1]) : 0.0;
-  const double c = length > 0.0 ? (*impulse)[0] / length : 1.0;
-  const double s = length > 0.0 ? (*impulse)[1] / length : 0.0;
-  return {{c, s}, {-c, -s}, {-s, c}, {s, -c}};
-}
-
-std::vector<Effect> EdgeEffects(const ConformanceCase& one, const Vector& change) {
-  std::vector<Effect> effects;
-  const auto d = static_cast<size_t>(one.dimension);
-  for (size_t contact = 0; contact < one.friction.size(); ++contact) {
-    for (const Vector& edge : Edges(one, change)) {
-      Vector impulse(one.jacobian.size());
-      for (size_t i = 0; i + 1 < d; ++i) impulse[contact * d + i] = one.friction[contact] * edge[i];
-      impulse[contact * d + d - 1] = 1.0;
-      effects.push_back(EffectOf(one, impulse));
-      if (one.friction[contact] == 0.0) break;
-    }
-  }
-  return effects;
+  MatrixXd columns(one.jacobian.rows(), impulses.size());
+  for (size_t i = 0; i < impulses.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = impulses[i];
+  return columns;
 }
 
 }  // namespace
 
-double Dot(const Vector& x, const Vector& y) {
-  double sum = 0.0;
-  for (size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
-  return sum;
-}
-
-Vector Times(const Matrix& matrix, const Vector& x) {
-  Vector product;
-  for (const Vector& row : matrix) product.push_back(Dot(row, x));
-  return product;
-}
-
-std::vector<double> OutsideCones(const ConformanceCase& one, const Vector& change) {
-  const std::vector<Effect> effects = EdgeEffects(one, change);
-  Vector least = change;
-  double least_energy = Dot(change, Times(one.mass, change));
+VectorXd OutsideCones(const ConformanceCase& one, const VectorXd& change) {
+  // With M = L L^T, the square of L^T v is twice the kinetic energy of v, and an impulse p causes L^T v = L^-1 J^T p.
+  const Eigen::LLT<MatrixXd> cholesky(one.mass);
+  const VectorXd all = cholesky.matrixU() * change;
+  const MatrixXd effects = cholesky.matrixL().solve(one.jacobian.transpose());
+  const MatrixXd edges = effects * EdgeImpulses(one, Edges(one.dimension, effects, all));
+  VectorXd least = all;
   // The nearest impulse lies on a face of the cones: on the edges of one subset.
-  for (size_t subset = 1; subset < size_t{1} << effects.size(); ++subset) {
-    std::vector<Effect> chosen;
-    for (size_t i = 0; i < effects.size(); ++i) {
-      if ((subset >> i & 1) != 0) chosen.push_back(effects[i]);
+  for (size_t subset = 1; subset < size_t{1} << edges.cols(); ++subset) {
+    std::vector<Eigen::Index> chosen;
+    for (Eigen::Index i = 0; i < edges.cols(); ++i) {
+      if ((subset >> i & 1) != 0) chosen.push_back(i);
     }
-    const std::optional<Vector> shares = Shares(chosen, change);
-    if (!shares.has_value()) continue;
-    Vector left = change;
-    bool pushes = true;
-    for (size_t i = 0; i < chosen.size(); ++i) {
-      pushes = pushes && (*shares)[i] >= 0.0;
-      for (size_t k = 0; k < left.size(); ++k) left[k] -= (*shares)[i] * chosen[i].velocity[k];
-    }
-    const double energy = Dot(left, Times(one.mass, left));
-    if (!pushes || energy >= least_energy) continue;
-    least = left;
-    least_energy = energy;
+    const MatrixXd face = edges(Eigen::all, chosen);
+    const std::optional<VectorXd> shares = LeastSquares(face, all);
+    if (!shares.has_value() || shares->minCoeff() < 0.0) continue;
+    const VectorXd left = all - face * *shares;
+    if (left.squaredNorm() < least.squaredNorm()) least = left;
   }
-  return least;
+  return cholesky.matrixU().solve(least);
 }
 
 }  // namespace ricochet::cli

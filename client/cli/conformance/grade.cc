@@ -1,5 +1,6 @@
 #include "client/cli/conformance/grade.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -11,16 +12,13 @@
 namespace ricochet::cli {
 namespace {
 
-using Vector = std::vector<double>;
+using Eigen::Index;
+using Eigen::VectorXd;
 
 // The share of its terms below which a difference of doubles is rounding.
 constexpr double kRounding = 0x1p-46;
 
-double LargestDifference(const Vector& x, const Vector& y) {
-  double largest = 0.0;
-  for (size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
-  return largest;
-}
+double Largest(const VectorXd& x) { return x.lpNorm<Eigen::Infinity>(); }
 
 LimitCheck Check(double value, double excess, double allowance) {
   const Verdict exceeded = excess > allowance ? Verdict::kBroken : Verdict::kWithinUncertainty;
@@ -28,61 +26,49 @@ LimitCheck Check(double value, double excess, double allowance) {
       .value = value, .excess = excess, .allowance = allowance, .verdict = excess > 0.0 ? exceeded : Verdict::kKept};
 }
 
-Vector Minus(const Vector& x, const Vector& y) {
-  Vector difference(x.size());
-  for (size_t i = 0; i < x.size(); ++i) difference[i] = x[i] - y[i];
-  return difference;
+LimitCheck EnergyCheck(const ConformanceCase& one, const VectorXd& after, double tolerance) {
+  const VectorXd moving = after - one.frame;
+  const VectorXd momentum = one.mass * moving;
+  const double gained = 0.5 * (moving + one.before - one.frame).dot(one.mass * (after - one.before));
+  return Check(gained, gained, kRounding * moving.dot(momentum) + tolerance * momentum.lpNorm<1>());
 }
 
-LimitCheck EnergyCheck(const ConformanceCase& one, const Vector& after, double tolerance) {
-  const Vector moving = Minus(after, one.frame);
-  const Vector sum = Minus(moving, Minus(one.frame, one.before));
-  const Vector change = Times(one.mass, Minus(after, one.before));
-  const double gained = 0.5 * Dot(sum, change);
-  double allowance = kRounding * Dot(moving, Times(one.mass, moving));
-  for (const double momentum : Times(one.mass, moving)) allowance += tolerance * std::abs(momentum);
-  return Check(gained, gained, allowance);
-}
-
-LimitCheck ApproachCheck(const ConformanceCase& one, const Vector& after, double tolerance) {
-  const Vector velocity = Times(one.jacobian, Minus(after, one.frame));
-  LimitCheck worst = Check(0.0, -1.0, 0.0);
-  const auto step = static_cast<size_t>(one.dimension);
-  for (size_t row = step - 1; row < velocity.size(); row += step) {
-    double allowance = 0.0;
-    for (const double entry : one.jacobian[row]) allowance += tolerance * std::abs(entry);
-    const LimitCheck check = Check(velocity[row], -velocity[row], allowance + kRounding);
-    if (row == step - 1 || check.excess - check.allowance > worst.excess - worst.allowance) worst = check;
+LimitCheck ApproachCheck(const ConformanceCase& one, const VectorXd& after, double tolerance) {
+  const VectorXd velocity = one.jacobian * (after - one.frame);
+  const VectorXd allowance = tolerance * one.jacobian.cwiseAbs().rowwise().sum().array() + kRounding;
+  Index worst = one.dimension - 1;
+  for (Index row = worst; row < velocity.size(); row += one.dimension) {
+    if (-velocity(row) - allowance(row) > -velocity(worst) - allowance(worst)) worst = row;
   }
-  return worst;
+  return Check(velocity(worst), -velocity(worst), allowance(worst));
 }
 
-LimitCheck ConeCheck(const ConformanceCase& one, const Vector& after, double tolerance) {
-  const Vector left = OutsideCones(one, Minus(after, one.before));
-  double allowance = kRounding * std::sqrt(Dot(one.before, Times(one.mass, one.before)));
-  for (size_t i = 0; i < left.size(); ++i) allowance += tolerance * std::sqrt(one.mass[i][i]);
-  const double largest = LargestDifference(left, Vector(left.size()));
-  return Check(largest, std::sqrt(Dot(left, Times(one.mass, left))), allowance);
+LimitCheck ConeCheck(const ConformanceCase& one, const VectorXd& after, double tolerance) {
+  const VectorXd left = OutsideCones(one, after - one.before);
+  const double allowance =
+      kRounding * std::sqrt(one.before.dot(one.mass * one.before)) + tolerance * one.mass.diagonal().cwiseSqrt().sum();
+  return Check(Largest(left), std::sqrt(left.dot(one.mass * left)), allowance);
 }
 
-LimitCheck SymmetryCheck(const ConformanceCase& one, const Vector& after, double tolerance) {
+LimitCheck SymmetryCheck(const ConformanceCase& one, const VectorXd& after, double tolerance) {
   double largest = 0.0;
   for (const std::vector<int>& symmetry : one.symmetries) {
-    for (size_t i = 0; i < after.size(); ++i) {
-      const double image = after[static_cast<size_t>(std::abs(symmetry[i])) - 1];
-      largest = std::max(largest, std::abs(after[i] - (symmetry[i] > 0 ? image : -image)));
+    for (Index i = 0; i < after.size(); ++i) {
+      const int place = symmetry[static_cast<size_t>(i)];
+      const double image = after(std::abs(place) - 1);
+      largest = std::max(largest, std::abs(after(i) - (place > 0 ? image : -image)));
     }
   }
   return Check(largest, largest, 2.0 * tolerance + kRounding);
 }
 
 // Decides whether some answer has the same numbers in another order.
-bool IsInOtherOrder(const ConformanceCase& one, Vector after, double tolerance) {
+bool IsInOtherOrder(const ConformanceCase& one, VectorXd after, double tolerance) {
   std::sort(after.begin(), after.end());
   return std::any_of(one.answers.begin(), one.answers.end(), [&](const RightAnswer& answer) {
-    Vector right = answer.velocity_after;
+    VectorXd right = answer.velocity_after;
     std::sort(right.begin(), right.end());
-    return LargestDifference(right, after) <= tolerance;
+    return Largest(right - after) <= tolerance;
   });
 }
 
@@ -103,10 +89,10 @@ std::string CommonestLaw(const SimulatorAnswers& answers, double tolerance) {
 
 CaseGrade GradeCase(const SimulatorAnswer& answer, const std::string& law, double tolerance) {
   const ConformanceCase& one = *answer.asked;
-  const Vector& after = answer.velocity_after;
+  const VectorXd& after = answer.velocity_after;
   CaseGrade grade{.asked = &one, .answered = true, .law = law, .error = std::numeric_limits<double>::infinity()};
   for (const RightAnswer& right : one.answers) {
-    const double error = LargestDifference(after, right.velocity_after);
+    const double error = Largest(after - right.velocity_after);
     grade.errors.push_back(error);
     const bool judges = one.HasOneContact() ? right.law == law : error < grade.error;
     if (judges) grade.error = error;

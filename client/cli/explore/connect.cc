@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
@@ -19,7 +21,7 @@
 #include "google/rpc/status.pb.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/batch.h"
-#include "proto/wire/cost.h"
+#include "proto/wire/fit.h"
 #include "proto/wire/info.h"
 #include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
@@ -28,19 +30,15 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr char kService[] = "/ricochet.v1.ImpactService/";
 constexpr char kJson[] = "application/json";
-constexpr char kJsonStream[] = "application/connect+json";
 constexpr std::chrono::milliseconds kLongest = std::chrono::minutes(1);
 
-// --- Errors ---
+// Returns the code of Connect, which is that of gRPC in small letters, but for one.
+std::string CodeText(const absl::Status& status) {
+  return absl::IsCancelled(status) ? "canceled" : absl::AsciiStrToLower(absl::StatusCodeToString(status.code()));
+}
 
-// The codes of Connect and their statuses of HTTP, by the numbers of gRPC.
-constexpr std::array<const char*, 17> kCodes = {
-    "ok",        "canceled",       "unknown",           "invalid_argument",   "deadline_exceeded",
-    "not_found", "already_exists", "permission_denied", "resource_exhausted", "failed_precondition",
-    "aborted",   "out_of_range",   "unimplemented",     "internal",           "unavailable",
-    "data_loss", "unauthenticated"};
+// The statuses of HTTP, by the numbers of gRPC's codes.
 constexpr std::array<int, 17> kStatuses = {200, 499, 500, 400, 504, 404, 409, 403, 429,
                                            400, 409, 400, 501, 500, 503, 500, 401};
 
@@ -54,8 +52,7 @@ std::string DetailText(const google::protobuf::Any& any) {
                       R"(","debug":)", json, "}");
 }
 
-// --- Calls: the JSON text of the answer to a request in JSON ---
-
+// The JSON text of the answer to a request in JSON.
 using Answer = absl::StatusOr<std::string>;
 
 // `method` is that of the Solver for the request.
@@ -80,83 +77,26 @@ Answer AnswerBatch(const Solver& solver, const std::string& body, const CallOpti
   return JsonOf(response);
 }
 
-// In a stream each message has a byte of flags and four of its length in front.
-constexpr size_t kPrefix = 5;
-constexpr char kLast = 2;
+constexpr std::pair<const char*, Answer (*)(const Solver&, const std::string&, const CallOptions&)> kMethods[] = {
+    {"Solve", &AnswerUnary<v1::SolveRequest, &Solver::Solve>},
+    {"Plan", &AnswerUnary<v1::PlanRequest, &Solver::Plan>},
+    {"Bounds", &AnswerUnary<v1::BoundsRequest, &Solver::Bounds>},
+    {"Audit", &AnswerUnary<v1::AuditRequest, &Solver::Audit>},
+    {"AuditBatch", &AnswerUnary<v1::AuditBatchRequest, &Solver::AuditBatch>},
+    {"SolveBatch", &AnswerBatch},
+    {"MultiContact", &AnswerUnary<v1::MultiContactRequest, &Solver::MultiContact>},
+    {"Fit", &AnswerUnary<v1::FitRequest, &Solver::Fit>},
+    {"Info", &AnswerUnary<v1::InfoRequest, &Solver::Info>}};
 
-std::string Enveloped(char flags, const std::string& text) {
-  std::string prefix(1, flags);
-  for (int shift = 24; shift >= 0; shift -= 8) prefix.push_back(static_cast<char>(text.size() >> shift));
-  return prefix + text;
-}
-
-absl::Status AppendStudy(const Solver& solver, const std::string& body, const CallOptions& options, std::string& text) {
-  if (body.size() < kPrefix || body != Enveloped(0, body.substr(kPrefix))) {
-    return absl::InvalidArgumentError("the body must be one message, after a byte 0 and the four bytes of its length");
-  }
-  v1::CostRequest request;
-  if (absl::Status wrong = ParseJson("the message", body.substr(kPrefix), request); !wrong.ok()) return wrong;
-  for (const absl::StatusOr<CostChunk>& chunk : solver.Cost(FromProto(request), options)) {
-    if (!chunk.ok()) return chunk.status();
-    text += Enveloped(0, JsonOf(ToProto(*chunk)));
-  }
-  return absl::OkStatus();
-}
-
-// A stream tells of its error at its end.
-Answer AnswerCost(const Solver& solver, const std::string& body, const CallOptions& options) {
-  std::string text;
-  const absl::Status status = AppendStudy(solver, body, options, text);
-  return text + Enveloped(kLast, status.ok() ? "{}" : absl::StrCat("{\"error\":", ErrorJson(status), "}"));
-}
-
-struct Method {
-  const char* name;
-  const char* type;  // That of the bodies.
-  Answer (*answer)(const Solver&, const std::string&, const CallOptions&);
-};
-
-constexpr std::array kMethods = {
-    Method{"Solve", kJson, &AnswerUnary<v1::SolveRequest, &Solver::Solve>},
-    Method{"Plan", kJson, &AnswerUnary<v1::PlanRequest, &Solver::Plan>},
-    Method{"Bounds", kJson, &AnswerUnary<v1::BoundsRequest, &Solver::Bounds>},
-    Method{"Audit", kJson, &AnswerUnary<v1::AuditRequest, &Solver::Audit>},
-    Method{"AuditBatch", kJson, &AnswerUnary<v1::AuditBatchRequest, &Solver::AuditBatch>},
-    Method{"SolveBatch", kJson, &AnswerBatch},
-    Method{"MultiContact", kJson, &AnswerUnary<v1::MultiContactRequest, &Solver::MultiContact>},
-    Method{"Cost", kJsonStream, &AnswerCost},
-    Method{"Info", kJson, &AnswerUnary<v1::InfoRequest, &Solver::Info>}};
-
-// Returns null for a name of no call that is served.
-const Method* FindMethod(absl::string_view name) {
-  const auto* const found =
-      std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& one) { return one.name == name; });
-  return found == kMethods.end() ? nullptr : found;
-}
-
-// Returns the time that the client allows. Errors: INVALID_ARGUMENT for a header that says none.
-absl::StatusOr<std::chrono::milliseconds> TimeLimit(const Exchange& exchange) {
-  const std::string header = exchange.Header("Connect-Timeout-Ms");
-  int64_t limit = 0;
-  if (header.empty()) return kLongest;
-  if (absl::SimpleAtoi(header, &limit) && limit > 0) return std::min(kLongest, std::chrono::milliseconds(limit));
-  return absl::InvalidArgumentError("Connect-Timeout-Ms: must be a whole number from 1 on");
-}
-
-// Reads the request and asks the solver.
-Answer Ask(const Method& method, const Solver& solver, const std::stop_token& stop, Exchange& exchange) {
-  const absl::StatusOr<std::chrono::milliseconds> limit = TimeLimit(exchange);
-  if (!limit.ok()) return limit.status();
-  const CallOptions options = {.stop = stop, .deadline = std::chrono::steady_clock::now() + *limit};
-  const absl::StatusOr<std::string> body = exchange.Body();
-  return body.ok() ? method.answer(solver, *body, options) : body.status();
+void Refuse(int http, const std::string& why, const std::string& header, Exchange& exchange) {
+  exchange.Reply(http, kJson, ErrorJson(absl::UnimplementedError(why)), header);
 }
 
 }  // namespace
 
 std::string ErrorJson(const absl::Status& status) {
   const grpc::Status sent = ToGrpcStatus(status);
-  std::string text = absl::StrCat(R"({"code":")", kCodes.at(static_cast<size_t>(status.code())), R"(","message":)");
+  std::string text = absl::StrCat(R"({"code":")", CodeText(status), R"(","message":)");
   AppendJson(sent.error_message(), text);
   google::rpc::Status proto;
   proto.ParseFromString(sent.error_details());
@@ -166,30 +106,34 @@ std::string ErrorJson(const absl::Status& status) {
   return text + (proto.details().empty() ? "}" : "]}");
 }
 
-absl::StatusOr<std::string> AskInJson(const Solver& solver, absl::string_view method, const std::string& body) {
-  return FindMethod(method)->answer(solver, body, {});
+JsonCall FindCall(const Solver& solver, absl::string_view method) {
+  for (const auto& [name, answer] : kMethods) {
+    if (method == name) return std::bind_front(answer, std::cref(solver));
+  }
+  return nullptr;
 }
 
 void ReplyError(const absl::Status& status, Exchange& exchange) {
   exchange.Reply(kStatuses.at(static_cast<size_t>(status.code())), kJson, ErrorJson(status));
 }
 
-void AnswerConnect(const Solver& solver, const std::stop_token& stop, Exchange& exchange) {
-  absl::string_view name = exchange.path();
-  const Method* const method = absl::ConsumePrefix(&name, kService) ? FindMethod(name) : nullptr;
-  const auto refuse = [&](int http, const std::string& why, const std::string& header) {
-    exchange.Reply(http, kJson, ErrorJson(absl::UnimplementedError(why)), header);
-  };
-  if (method == nullptr) return refuse(404, absl::StrCat(exchange.path(), " is no call that is served here"), "");
-  if (exchange.method() != "POST") return refuse(405, "the method must be POST", "Allow: POST\r\n");
+void AnswerPost(const JsonCall& call, const std::stop_token& stop, Exchange& exchange) {
+  if (call == nullptr) return Refuse(404, absl::StrCat(exchange.path(), " is not served here"), "", exchange);
+  if (exchange.method() != "POST") return Refuse(405, "the method must be POST", "Allow: POST\r\n", exchange);
   const std::string type = exchange.Header("Content-Type");
-  if (!absl::EqualsIgnoreCase(absl::StripAsciiWhitespace(type.substr(0, type.find(';'))), method->type)) {
-    return refuse(415, absl::StrCat("Content-Type: must be ", method->type),
-                  absl::StrCat("Accept-Post: ", method->type, "\r\n"));
+  if (!absl::EqualsIgnoreCase(absl::StripAsciiWhitespace(type.substr(0, type.find(';'))), kJson)) {
+    return Refuse(415, "Content-Type: must be application/json", "Accept-Post: application/json\r\n", exchange);
   }
-  const Answer answer = Ask(*method, solver, stop, exchange);
+  int64_t limit = kLongest.count();
+  const std::string header = exchange.Header("Connect-Timeout-Ms");
+  if (!header.empty() && !(absl::SimpleAtoi(header, &limit) && limit > 0)) {
+    return ReplyError(absl::InvalidArgumentError("Connect-Timeout-Ms: must be a whole number from 1 on"), exchange);
+  }
+  const auto deadline = std::chrono::steady_clock::now() + std::min(kLongest, std::chrono::milliseconds(limit));
+  const absl::StatusOr<std::string> body = exchange.Body();
+  const Answer answer = body.ok() ? call(*body, {.stop = stop, .deadline = deadline}) : body.status();
   if (!answer.ok()) return ReplyError(answer.status(), exchange);
-  exchange.Reply(200, method->type, *answer);
+  exchange.Reply(200, kJson, *answer);
 }
 
 }  // namespace ricochet::cli

@@ -7,6 +7,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "client/cli/explore/connect.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/input/scene_templates.h"
 #include "client/cli/report/solve_plot.h"
 #include "client/cli/report/solve_report.h"
 #include "client/cli/text/json_text.h"
@@ -20,71 +22,90 @@ extern const absl::string_view kImpactPage;  // The text of impact_page.html.
 
 namespace {
 
-// Returns {"REGIME_SLIDING": "Sliding: ...", ...}, in the order of the numbers.
-template <typename Words>
-std::string WordsJson(const google::protobuf::EnumDescriptor& type, Words words) {
+std::string SceneJson(const Scene& scene) { return SparseJsonOf(ToProto(scene)); }
+
+// Returns {"pendulum": {...}, ...}, the scenes of the templates.
+std::string TemplatesJson() {
   std::string text;
-  for (int i = 0; i < type.value_count(); ++i) {
-    text += i == 0 ? "{" : ",";
-    AppendJson(type.value(i)->name(), text);
-    text += ":";
-    AppendJson(words(type.value(i)->number()), text);
-  }
+  const auto add = [&text](const SceneTemplate& one, google::protobuf::Message&& scene) {
+    ParseMessage("template.textproto", one.text, scene).IgnoreError();  // A template is right: tests solve each.
+    absl::StrAppend(&text, text.empty() ? "{" : ",", "\"", one.system, "\":", SparseJsonOf(scene));
+  };
+  for (const SceneTemplate& one : SceneTemplates()) add(one, v1::Scene());
+  for (const SceneTemplate& one : MultiContactTemplates()) add(one, v1::MultiContactScene());
   return text + "}";
 }
 
-// `more` is what the page starts with beside its words: further members of an object, or nothing.
+// `more` is what the page starts with beside its scenes: further members of an object, or nothing.
 std::string PageOf(const std::string& more, const std::string& nonce) {
-  const auto regime = [](int number) { return RegimeSentence(static_cast<Regime>(number)); };
-  const auto event = [](int number) { return EventText(static_cast<EventKind>(number)); };
-  const auto termination = [](int number) { return TerminationText(static_cast<Termination>(number)); };
-  const std::string start =
-      absl::StrCat("{\"regimes\":", WordsJson(*v1::Regime_descriptor(), regime),
-                   ",\"events\":", WordsJson(*v1::Event::Kind_descriptor(), event),
-                   ",\"terminations\":", WordsJson(*v1::Termination_descriptor(), termination), more, "}");
+  const std::string start = absl::StrCat("{\"scenes\":", TemplatesJson(), more, "}");
   // The end of the element must not stand in a text of the JSON.
   return absl::StrReplaceAll(kImpactPage,
                              {{"{{nonce}}", nonce}, {"{{start}}", absl::StrReplaceAll(start, {{"<", "\\u003c"}})}});
 }
 
-std::string SceneJson(const Scene& scene) { return SparseJsonOf(ToProto(scene)); }
-
-// Returns `,"name":{"request":...,"answer":...}`, or with an error in place of the answer.
-std::string AnswerJson(const char* name, const Solver& solver, absl::string_view method, const std::string& request) {
-  const absl::StatusOr<std::string> answer = AskInJson(solver, method, request);
-  return absl::StrCat(R"(,")", name, R"(":{"request":)", request, answer.ok() ? R"(,"answer":)" : R"(,"error":)",
-                      answer.ok() ? *answer : ErrorJson(answer.status()), "}");
+// Returns what the regime, the termination and each event of an outcome mean, as a list of sentences.
+std::string WordsJson(const Outcome& outcome) {
+  std::string text = "[";
+  AppendJson(RegimeSentence(outcome.regime), text);
+  AppendJson(TerminationText(outcome.termination), text += ",");
+  for (const Event& event : outcome.timeline) AppendJson(EventText(event.kind), text += ",");
+  return text + "]";
 }
 
-// Asks for the coefficients of restitution over friction, from 0 to at least 2.
-std::string CurvesJson(const char* name, const Solver& solver, const Scene& scene) {
-  const double most = std::max(2.0, 1.25 * scene.friction.kinetic_coefficient);
-  std::vector<double> mu;
-  for (int i = 0; i <= 100; ++i) mu.push_back(most * i / 100);
-  const std::string bytes(reinterpret_cast<const char*>(mu.data()), mu.size() * sizeof(double));
-  return AnswerJson(
-      name, solver, "SolveBatch",
-      absl::StrCat(R"({"setup":{"fields":["friction.kinetic_coefficient"],"columns":[)",
-                   R"("coefficients.newton","coefficients.poisson","coefficients.energetic"],)", R"("scene":)",
-                   SceneJson(scene), R"(},"inputs":[")", absl::Base64Escape(bytes), R"("]})"));
-}
-
-// The answers that depend on the coefficient that the scene states, which are none without one.
-struct LawsJson {
+// Asks the solver what the page shows of a scene.
+struct Asking {
   const Solver& solver;
   const Scene& scene;
+  const CallOptions& options;
 
+  // Returns `,"name":{"request":...,"answer":...}`, or with an error in place of the answer.
+  std::string Json(const char* name, absl::string_view method, const std::string& request) const {
+    const absl::StatusOr<std::string> answer = FindCall(solver, method)(request, options);
+    return absl::StrCat(R"(,")", name, R"(":{"request":)", request, answer.ok() ? R"(,"answer":)" : R"(,"error":)",
+                        answer.ok() ? *answer : ErrorJson(answer.status()), "}");
+  }
+
+  // Asks for the coefficients of restitution over friction, from 0 to at least 2.
+  std::string Curves(const char* name, const Scene& of) const {
+    const double most = std::max(2.0, 1.25 * of.friction.kinetic_coefficient);
+    std::vector<double> mu;
+    for (int i = 0; i <= 100; ++i) mu.push_back(most * i / 100);
+    const std::string bytes(reinterpret_cast<const char*>(mu.data()), mu.size() * sizeof(double));
+    return Json(name, "SolveBatch",
+                absl::StrCat(R"({"setup":{"fields":["friction.kinetic_coefficient"],"columns":[)",
+                             R"("coefficients.newton","coefficients.poisson","coefficients.energetic"],)",
+                             R"("scene":)", SceneJson(of), R"(},"inputs":[")", absl::Base64Escape(bytes), R"("]})"));
+  }
+
+  // These depend on the coefficient that the scene states, and are none without one.
   std::string operator()(std::monostate /*none*/) const { return ""; }
   template <typename Coefficient>
   std::string operator()(const Coefficient& stated) const {
     Scene elastic = scene, by_newton = scene;
     elastic.restitution = EnergeticCoefficient{1.0};
     by_newton.restitution = NewtonCoefficient{stated.value};
-    const std::string simulated = absl::StrCat("{\"scene\":", SceneJson(by_newton), "}");
-    return absl::StrCat(CurvesJson("over", solver, scene), CurvesJson("elastic", solver, elastic),
-                        AnswerJson("simulator", solver, "Solve", simulated));
+    return absl::StrCat(Curves("over", scene), Curves("elastic", elastic),
+                        Json("simulator", "Solve", absl::StrCat("{\"scene\":", SceneJson(by_newton), "}")));
   }
 };
+
+// Returns {"solve": {...}, "bounds": {...}, ...}.
+std::string AnswersJson(const Solver& solver, const SolveRequest& request, const SolveResponse& response,
+                        const CallOptions& options) {
+  const Scene& scene = request.scene;
+  const Asking asking = {solver, scene, options};
+  std::string text = absl::StrCat(R"({"solve":{"request":)", SparseJsonOf(ToProto(request)), R"(,"answer":)",
+                                  JsonOf(ToProto(response)), R"(},"words":)", WordsJson(response.outcome),
+                                  asking.Json("bounds", "Bounds", absl::StrCat(R"({"scene":)", SceneJson(scene), "}")),
+                                  std::visit(asking, scene.restitution));
+  // In space the course is curved between its events.
+  if (response.outcome.timeline.size() > 1 && TangentialDirections(scene.system) == 2) {
+    const AuditBatchRequest path = {.scene = scene, .columns = PartsOfTheWay(response.outcome, 48)};
+    text += asking.Json("path", "AuditBatch", JsonOf(ToProto(path)));
+  }
+  return text + "}";
+}
 
 }  // namespace
 
@@ -93,17 +114,18 @@ std::string LivePage(const std::optional<Scene>& scene, const std::string& nonce
 }
 
 std::string FinishedPage(const Solver& solver, const SolveRequest& request, const SolveResponse& response) {
-  const Scene& scene = request.scene;
-  const std::string shown = SceneJson(scene);
-  std::string more = absl::StrCat(R"(,"scene":)", shown, R"(,"answers":{"solve":{"request":)",
-                                  SparseJsonOf(ToProto(request)), R"(,"answer":)", JsonOf(ToProto(response)), "}",
-                                  AnswerJson("bounds", solver, "Bounds", absl::StrCat(R"({"scene":)", shown, "}")),
-                                  std::visit(LawsJson{solver, scene}, scene.restitution));
-  if (response.outcome.timeline.size() > 1 && TangentialDirections(scene.system) == 2) {
-    const AuditBatchRequest path = {.scene = scene, .columns = PartsOfTheWay(response.outcome, 48)};
-    more += AnswerJson("path", solver, "AuditBatch", JsonOf(ToProto(path)));
-  }
-  return PageOf(more + "}", "");
+  return PageOf(absl::StrCat(",\"scene\":", SceneJson(request.scene),
+                             ",\"answers\":", AnswersJson(solver, request, response, {})),
+                "");
+}
+
+absl::StatusOr<std::string> PageAnswers(const Solver& solver, const std::string& body, const CallOptions& options) {
+  v1::SolveRequest proto;
+  if (absl::Status wrong = ParseJson("the body", body, proto); !wrong.ok()) return wrong;
+  const SolveRequest request = FromProto(proto);
+  const absl::StatusOr<SolveResponse> response = solver.Solve(request, options);
+  if (!response.ok()) return response.status();
+  return AnswersJson(solver, request, *response, options);
 }
 
 }  // namespace ricochet::cli

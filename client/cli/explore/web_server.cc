@@ -7,12 +7,14 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
+#include <numeric>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/escaping.h"
-#include "absl/strings/numbers.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
 #include "client/server_address.h"
@@ -34,9 +36,8 @@ constexpr char kHeaders[] =
 
 // Takes the same time wherever two texts of one length differ, so that the time tells nobody how much was right.
 bool IsSame(absl::string_view a, absl::string_view b) {
-  unsigned difference = a.size() == b.size() ? 0 : 1;
-  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) difference |= static_cast<unsigned>(a[i] ^ b[i]);
-  return difference == 0;
+  return a.size() == b.size() &&
+         std::transform_reduce(a.begin(), a.end(), b.begin(), 0, std::bit_or<>(), std::bit_xor<>()) == 0;
 }
 
 }  // namespace
@@ -86,30 +87,25 @@ void Exchange::Reply(int status, absl::string_view type, absl::string_view body,
   mg_write(connection_, text.data(), text.size());
 }
 
-absl::StatusOr<std::unique_ptr<WebServer>> WebServer::Start(Options options) {
-  std::unique_ptr<WebServer> server(new WebServer(std::move(options)));
-  if (absl::Status listening = server->Listen(); !listening.ok()) return listening;
-  return server;
-}
-
-absl::Status WebServer::Listen() {
+absl::StatusOr<std::unique_ptr<WebServer>> WebServer::Start(std::string host, int port, Answer answer) {
   mg_init_library(0);
-  const std::string where = authority();
+  std::unique_ptr<WebServer> server(new WebServer(std::move(host), port, std::move(answer)));
+  const std::string where = server->authority();
   const std::array<const char*, 17> settings = {
       "listening_ports", where.c_str(), "num_threads", kThreads, "request_timeout_ms", kSlowest, "enable_keep_alive",
       "yes", "keep_alive_timeout_ms", kSlowest, "tcp_nodelay", "1",
       // civetweb would itself allow every origin.
       "access_control_allow_origin", "", "access_control_allow_methods", "", nullptr};
   std::array<char, 256> reason = {};
-  auto* options = const_cast<const char**>(settings.data());
-  mg_init_data how = {.callbacks = nullptr, .user_data = this, .configuration_options = options};
+  auto* const text = const_cast<const char**>(settings.data());
+  mg_init_data how = {.callbacks = nullptr, .user_data = server.get(), .configuration_options = text};
   mg_error_data error = {.code = nullptr, .text = reason.data(), .text_buffer_size = reason.size()};
-  web_ = mg_start2(&how, &error);
-  if (web_ == nullptr) return absl::UnavailableError(absl::StrCat("cannot listen at ", where, ": ", reason.data()));
-  mg_server_port port = {};
-  if (mg_get_server_ports(web_, 1, &port) == 1) options_.port = port.port;
-  mg_set_request_handler(web_, "/", &Handle, this);
-  return absl::OkStatus();
+  mg_context* const web = server->web_ = mg_start2(&how, &error);
+  if (web == nullptr) return absl::UnavailableError(absl::StrCat("cannot listen at ", where, ": ", reason.data()));
+  mg_server_port bound = {};
+  if (mg_get_server_ports(web, 1, &bound) == 1) server->port_ = bound.port;
+  mg_set_request_handler(web, "/", &Handle, server.get());
+  return server;
 }
 
 WebServer::~WebServer() {
@@ -117,18 +113,13 @@ WebServer::~WebServer() {
   mg_exit_library();
 }
 
-std::string WebServer::authority() const { return absl::StrCat(options_.host, ":", options_.port); }
-
 // Only a name can be bound to another address than its owner's, so that every address is good beyond loopback, where
 // this server may have several.
 bool WebServer::IsOwn(absl::string_view authority) const {
-  const size_t colon = authority.rfind(':');
-  int port = 0;
-  if (colon == absl::string_view::npos || !absl::SimpleAtoi(authority.substr(colon + 1), &port)) return false;
-  if (port != options_.port) return false;
+  if (!absl::EndsWith(authority, absl::StrCat(":", port_))) return false;
   if (IsLoopbackAddress(authority)) return true;
   const bool is_address = authority.front() == '[' || authority.find_first_not_of("0123456789.:") == authority.npos;
-  return is_address && !IsLoopbackAddress(options_.host);
+  return is_address && !IsLoopbackAddress(host_);
 }
 
 absl::Status WebServer::Check(const Exchange& exchange) const {
@@ -140,9 +131,7 @@ absl::Status WebServer::Check(const Exchange& exchange) const {
     return absl::PermissionDeniedError(absl::StrCat("Origin ", origin, ": must be http://", authority(), " or absent"));
   }
   const std::string header = exchange.Header("Authorization");
-  if (IsSame(header, "Bearer " + options_.token) || IsSame(exchange.Query("token"), options_.token)) {
-    return absl::OkStatus();
-  }
+  if (IsSame(header, "Bearer " + token_) || IsSame(exchange.Query("token"), token_)) return absl::OkStatus();
   return absl::UnauthenticatedError(
       "the token must be that which ricochet explore has printed, as ?token=... or as Authorization: Bearer ...");
 }
@@ -153,7 +142,7 @@ int WebServer::Handle(mg_connection* connection, void* server) {
   const absl::Status allowed = self.Check(exchange);
   if (!allowed.ok()) mg_disable_connection_keep_alive(connection);
   // A thread of civetweb has a stack of 100 KiB, which is too small to compute on.
-  std::thread([&] { self.options_.answer(exchange, allowed); }).join();
+  std::thread([&] { self.answer_(exchange, allowed); }).join();
   return 1;
 }
 

@@ -48,33 +48,31 @@ class Exchange {
 
 class WebServer {
  public:
-  struct Options {
-    std::string host;  // An IP address, with brackets if it is one of IPv6.
-    int port = 0;      // 0 lets the system choose.
-    std::string token;
-    // Answers a request, or one that was refused. Several threads call it at once.
-    std::function<void(Exchange&, const absl::Status& allowed)> answer;
-  };
+  // Answers a request, or one that was refused. Several threads call it at once.
+  using Answer = std::function<void(Exchange&, const absl::Status& allowed)>;
 
-  // Starts to serve. Errors: UNAVAILABLE if it cannot listen there.
-  static absl::StatusOr<std::unique_ptr<WebServer>> Start(Options options);
+  // Starts to serve. `host` is an IP address, with brackets if it is one of IPv6; port 0 lets the system choose.
+  // Errors: UNAVAILABLE if it cannot listen there.
+  static absl::StatusOr<std::unique_ptr<WebServer>> Start(std::string host, int port, Answer answer);
 
   // Waits for the answers that are on their way.
   ~WebServer();
   WebServer(const WebServer&) = delete;
-  WebServer& operator=(const WebServer&) = delete;
 
-  // Returns HOST:PORT with the port that the system chose.
-  std::string authority() const;
+  // Returns the address of the page, with the port that the system chose and the token.
+  std::string url() const { return "http://" + authority() + "/?token=" + token_; }
 
  private:
-  explicit WebServer(Options options) : options_(std::move(options)) {}
-  absl::Status Listen();
+  WebServer(std::string host, int port, Answer answer)
+      : host_(std::move(host)), port_(port), answer_(std::move(answer)) {}
+  std::string authority() const { return host_ + ":" + std::to_string(port_); }
   absl::Status Check(const Exchange& exchange) const;
   bool IsOwn(absl::string_view authority) const;
   static int Handle(mg_connection* connection, void* server);
 
-  Options options_;
+  const std::string host_, token_ = RandomHex();
+  int port_;
+  const Answer answer_;
   mg_context* web_ = nullptr;
 };
 

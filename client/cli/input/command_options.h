@@ -25,7 +25,7 @@ using Command = std::function<absl::Status()>;
 
 struct CommonOptions {
   ConnectionInput connection;
-  Format format = Format::kText;  // That of --format or of the ending of `output`.
+  Format format = Format::kText;  // --format states it, or the ending of `output`.
   std::string named_format;       // --format as it was typed; empty if it was not given.
   std::string output;             // Empty: standard output.
 };

@@ -26,7 +26,7 @@ namespace {
 struct Setting {
   const char* name;
   std::string ConnectionInput::*value;
-  const char* field;  // That of ClientOptions as its errors name it, or null.
+  const char* field;  // The name that errors of ClientOptions give it; may be null.
 };
 
 constexpr Setting kSettings[] = {{"server", &ConnectionInput::server, "target"},

@@ -1,10 +1,5 @@
 #include "client/cli/input/scene_input.h"
 
-#include <google/protobuf/descriptor.h>
-#include <google/protobuf/io/tokenizer.h>
-#include <google/protobuf/text_format.h>
-#include <google/protobuf/util/json_util.h>
-
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <cerrno>
@@ -20,16 +15,12 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "absl/strings/str_replace.h"
-#include "absl/strings/str_split.h"
 #include "client/cli/input/file_option.h"
-#include "client/cli/input/json_errors.h"
-#include "client/cli/input/json_matrices.h"
 #include "client/cli/input/mechanism_file.h"
 #include "client/cli/io/csv_table.h"
-#include "client/cli/io/output_format.h"
 #include "client/cli/text/number_input.h"
 #include "core/scene/numbers.h"
+#include "proto/text/message_text.h"
 #include "proto/wire/scene.h"
 #include "ricochet/error.h"
 
@@ -54,41 +45,6 @@ constexpr SceneFlag kSceneFlags[] = {
 
 constexpr double kDefaultInertia = 1.0;
 constexpr double kDefaultOmega = -1.0;
-
-// The parser says: Message type "ricochet.v1.Pendulum" has no field named "am".
-std::string WithNearestField(const std::vector<std::string>& quoted) {
-  const auto* const type = google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(quoted[1]);
-  return absl::StrCat(quoted[1], " has no field \"", quoted[3], "\"",
-                      type == nullptr ? "" : FieldHint(*type, quoted[3]));
-}
-
-// The parser says: Field "b" is specified along with field "a", another member of oneof "system".
-std::string InWords(const std::string& message) {
-  const std::vector<std::string> quoted = absl::StrSplit(message, '"');
-  if (quoted.size() == 5 && absl::StrContains(message, "has no field named")) return WithNearestField(quoted);
-  if (quoted.size() != 7 || !absl::StrContains(message, "another member of oneof")) return message;
-  return absl::StrCat("\"", quoted[1], "\" cannot be given beside \"", quoted[3], "\": there is one ",
-                      absl::StrReplaceAll(quoted[5], {{"_", " "}}), " only");
-}
-
-// Keeps the first error of the textproto parser.
-class FirstError final : public google::protobuf::io::ErrorCollector {
- public:
-  void AddError(int line, google::protobuf::io::ColumnNumber column, const std::string& message) override {
-    if (text.empty()) text = absl::StrCat("line ", line + 1, ", column ", column + 1, ": ", InWords(message));
-  }
-  std::string text;
-};
-
-bool IsJson(const std::string& path, const std::string& text) {
-  const std::string file_ending = EndingOf(path);
-  if (file_ending == "json") return true;
-  for (const char* ending : {"textproto", "txtpb", "pbtxt"}) {
-    if (file_ending == ending) return false;
-  }
-  const size_t start = text.find_first_not_of(" \t\r\n");
-  return start != std::string::npos && text[start] == '{';
-}
 
 // Reads numbers and keeps every violation, so that all of them are reported at once.
 class NumberReader {
@@ -162,6 +118,12 @@ bool AnyFlag(const SceneOptions& options) {
   return std::any_of(std::begin(kSceneFlags), std::end(kSceneFlags),
                      [&](const SceneFlag& flag) { return (options.*flag.value).has_value(); });
 }
+
+absl::Status AsStatus(const std::string& name, const std::string& wrong) {
+  return wrong.empty() ? absl::OkStatus() : absl::InvalidArgumentError(absl::StrCat(name, " ", wrong));
+}
+
+std::string NameOf(const std::string& path) { return path == "-" ? "standard input" : path; }
 
 }  // namespace
 
@@ -263,25 +225,11 @@ absl::Status ReadMessage(const std::string& path, google::protobuf::Message& mes
 }
 
 absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message) {
-  const std::string name = path == "-" ? "standard input" : path;
-  if (IsJson(path, text)) return ParseJson(name, text, message);
-  FirstError error;
-  google::protobuf::TextFormat::Parser parser;
-  parser.RecordErrorsTo(&error);
-  if (parser.ParseFromString(text, &message)) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat(name, " is not a ", message.GetTypeName(), " in textproto: ", error.text));
+  return AsStatus(NameOf(path), WhyNoMessage(path, text, message));
 }
 
 absl::Status ParseJson(const std::string& name, const std::string& text, google::protobuf::Message& message) {
-  const absl::StatusOr<std::string> flat = WithFlatMatrices(text);
-  std::string wrong(flat.ok() ? ExplainJson(*flat, *message.GetDescriptor()) : flat.status().message());
-  if (wrong.empty()) {
-    const auto status = google::protobuf::util::JsonStringToMessage(*flat, &message);
-    if (status.ok()) return absl::OkStatus();
-    wrong = status.message().ToString();
-  }
-  return absl::InvalidArgumentError(absl::StrCat(name, " is not a ", message.GetTypeName(), " in JSON: ", wrong));
+  return AsStatus(name, WhyNoJson(text, message));
 }
 
 }  // namespace ricochet::cli

@@ -62,11 +62,10 @@ absl::Status RequireVelocity(const Scene& scene);
 // Errors: INVALID_ARGUMENT that names the file.
 absl::StatusOr<std::string> ReadText(const std::string& path);
 
-// Reads a message of any type from a file, or from standard input for "-". A file *.json is JSON; *.textproto, *.txtpb
-// and *.pbtxt are textproto; any other is JSON if it starts with a brace, else textproto.
+// Reads a message of any type from a file, or from standard input for "-" (proto/text/message_text.h).
 // Errors: INVALID_ARGUMENT that names the file, and the line if the parser tells it.
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message);
-// Reads a message from the text of the file `path`, by the rules of ReadMessage.
+// Reads a message from the text of the file `path`, likewise.
 absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message);
 // Reads a message from JSON; `name` is what the error calls the text. Errors: INVALID_ARGUMENT.
 absl::Status ParseJson(const std::string& name, const std::string& text, google::protobuf::Message& message);

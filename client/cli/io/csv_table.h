@@ -75,7 +75,7 @@ class CsvReader {
   std::vector<std::string> header_;
   std::vector<CellKind> kinds_;  // One for each name of the header.
   std::string line_;
-  int64_t number_ = 0;  // That of line_.
+  int64_t number_ = 0;  // The number of line_.
   int64_t bytes_ = 0;
 };
 

@@ -65,12 +65,12 @@ class RowWriter {
   }
 
   Format format_;
-  std::vector<std::string> names_;  // As CSV, or as JSON with a colon.
-  size_t place_ = 0;                // That of the next cell.
-  std::string* text_ = nullptr;     // That of the row at hand.
+  std::vector<std::string> names_;  // Each is written for CSV, or for JSON with a colon.
+  size_t place_ = 0;                // The column of the next cell.
+  std::string* text_ = nullptr;     // The row at hand is appended to it.
   bool is_first_row_ = false;
   Table table_;
-  std::vector<std::string> cells_;  // Those of the row at hand in a table.
+  std::vector<std::string> cells_;  // A table takes the cells of a row at once.
 };
 
 }  // namespace ricochet::cli

@@ -23,7 +23,7 @@ struct Axes {
   bool log_y = false;
   AxisRange x = kNoRange;
   AxisRange y = kNoRange;
-  AxisRange z = kNoRange;  // That of the colours of a map.
+  AxisRange z = kNoRange;  // The colours of a map span this range.
   Scale scale;           // The scale of a map's colours, else upwards; without values where the panel has a fixed one.
   int64_t left_out = 0;  // Points that a logarithmic axis cannot show.
 

@@ -1,4 +1,4 @@
-// What a fit looks like as text and CSV.
+// The report of a fit as text and CSV.
 
 #ifndef RICOCHET_CLIENT_CLI_REPORT_FIT_REPORT_H_
 #define RICOCHET_CLIENT_CLI_REPORT_FIT_REPORT_H_

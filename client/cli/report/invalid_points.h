@@ -62,8 +62,8 @@ class InvalidCounts {
 
   InvalidPoints points_;
   bool may_lack_numbers_;  // A valid point may have NaN in every column.
-  int64_t count_ = 0;      // Those that were added.
-  int64_t total_ = 0;      // Those of the whole sweep.
+  int64_t count_ = 0;      // So many points were added.
+  int64_t total_ = 0;      // The whole sweep has so many.
   std::map<std::string, Tally> by_rule_;
 };
 

@@ -65,7 +65,7 @@ Json ValueSchema(const FieldDescriptor& field, const std::string& comment) {
   return schema;
 }
 
-// A matrix as a list of its rows (client/cli/input/json_matrices.h).
+// A matrix as a list of its rows (proto/text/json_matrices.h).
 Json RowsSchema() { return {{"type", "array"}, {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}}; }
 
 bool IsMatrix(const FieldDescriptor& field) {

@@ -100,7 +100,7 @@ absl::StatusOr<SweepTable> ReadSweepNpy(std::istream& stream, const std::vector<
   size_t record_bytes = 0;
   for (const Field& field : header->fields) {
     names.push_back(field.name);
-    record_bytes += field.type == "|u1" ? 1 : 8;
+    record_bytes += field.type == "|u1" ? 1u : 8u;
   }
   absl::StatusOr<SweepRows> rows = SweepRows::Create(names, columns);
   if (!rows.ok()) return rows.status();

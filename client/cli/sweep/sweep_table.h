@@ -22,8 +22,8 @@ struct SweepTable {
   std::vector<std::string> columns;         // Paths of the outcome.
   std::vector<std::vector<double>> at;      // For each axis, its value at each point.
   std::vector<std::vector<double>> values;  // For each column, its value at each point; NaN if there is none.
-  std::vector<Regime> regimes;              // That of each point; empty if they are not known.
-  std::vector<RowStatus> statuses;          // That of each point; empty if they are not known.
+  std::vector<Regime> regimes;              // One for each point; empty if they are not known.
+  std::vector<RowStatus> statuses;          // One for each point; empty if they are not known.
   // The units that a file states for names which the field table does not have.
   std::map<std::string, std::string> units;
 

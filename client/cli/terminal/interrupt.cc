@@ -29,6 +29,8 @@ sigset_t Watched() {
 
 bool Interrupt::Happened() { return happened; }
 
+void Interrupt::Wait() { happened.wait(false); }
+
 Interrupt::Interrupt() {
   const sigset_t signals = Watched();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
@@ -42,6 +44,7 @@ Interrupt::Interrupt() {
         _exit(kInterruptedExitCode);
       }
       if (!happened.exchange(true)) first = now;
+      happened.notify_all();
       source.request_stop();
     }
   });

@@ -8,10 +8,10 @@
 
 namespace ricochet::cli {
 
-// Construct it before any other thread starts, because threads inherit the set of blocked signals.
 // The exit code of a run that Ctrl-C or SIGTERM ended, which is that of a shell for SIGINT.
 inline constexpr int kInterruptedExitCode = 130;
 
+// Construct it before any other thread starts, because threads inherit the set of blocked signals.
 class Interrupt {
  public:
   Interrupt();
@@ -19,6 +19,9 @@ class Interrupt {
 
   // True if a signal has come, to any object of this class.
   static bool Happened();
+
+  // Waits until a signal has come.
+  static void Wait();
 
  private:
   std::stop_source source_;

@@ -16,7 +16,7 @@ class FieldDescriptor;
 namespace ricochet::cli {
 
 struct FieldInfo {
-  std::string path;     // As axes and columns spell it, without indices: "linkage.links.theta_rad".
+  std::string path;     // Axes and columns spell it so, without indices: "linkage.links.theta_rad".
   std::string unit;     // "rad/s", "kg m²", "N/m"; empty for a pure number.
   std::string meaning;  // The first sentence of the comment, without its unit: "k, stiffness".
   std::string range;    // The range as the comment states it: "> 0", "0 <= value <= 1"; empty for any finite number.

@@ -35,6 +35,8 @@ namespace ricochet {
 // Deadlines: a call ends at the deadline of its CallOptions or of ClientOptions, whichever comes first. The server
 // learns of it, and of a stop, and ends its work too.
 //
+// gRPC, which the first Client starts, stays until the process ends.
+//
 // Errors: a Client returns the errors of Solver with the same reason and violations, UNAVAILABLE and DEADLINE_EXCEEDED
 // of the network, FAILED_PRECONDITION for a server that is not trusted or does not speak TLS, and DATA_LOSS if the
 // chunks of a stream do not fit together (a gap, a repetition, a wrong size, an early end).

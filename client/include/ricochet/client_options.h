@@ -49,6 +49,8 @@ struct ClientOptions {
   // "host:port" or another gRPC target, such as "unix:PATH". Required. A list, separated by commas, names servers that
   // stand in for each other: calls go to the first; where it fails, they and those after them go to the next.
   // A server may be named twice, for a `fan_out` over the servers behind one proxy.
+  // A host that is not loopback is reached through the HTTP proxy of the environment, if http_proxy names one and
+  // no_proxy does not exempt the host.
   std::string target;
   std::chrono::milliseconds deadline{10000};                // For Solve, Bounds and CheckHealth, tries included. > 0.
   std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.

@@ -12,7 +12,7 @@ import unittest
 
 from ricochet_case import RicochetCase, WORK, ricochet
 
-SCENES = int(os.environ.get("RICOCHET_SCENES", "5"))  # Of each kind.
+SCENES = int(os.environ.get("RICOCHET_SCENES", "5"))  # Each kind has so many.
 RANDOM = random.Random(2026)
 
 

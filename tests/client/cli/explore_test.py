@@ -73,6 +73,13 @@ class ExploreTest(RicochetCase):
         self.assertEqual(len(newton), 16)
         status, plan = self.curl({"scene": PENDULUM}, "Plan")
         self.assertEqual((status, plan["plan"]["model"]), (200, "MODEL_PENDULUM"))
+        speeds = [1, 2, 3]
+        status, fit = self.curl({
+            "scene": {**PENDULUM, "friction": {}}, "unknowns": [{"path": "restitution.energetic"}],
+            "inputs": [{"path": "pendulum.omega_minus_rad_s", "values": [-speed for speed in speeds]}],
+            "measured": [{"path": "rates_after_rad_s[0]", "values": [0.6 * speed for speed in speeds], "sigma": [0.01]}]}, "Fit")
+        self.assertEqual(status, 200, fit)
+        self.assertAlmostEqual(fit["unknowns"][0]["value"], 0.6, delta=1e-12)  # A smooth surface: w+ = -e w-.
 
     def test_computes_what_takes_a_deep_stack(self):
         feet = {"contact_matrix": {"w_per_kg": [3.4, -1.2, 3.4, 1.2, -1.2, 1.6, -1.2, 0.4, 3.4, -1.2, 3.4, 1.2, 1.2, 0.4,
@@ -108,6 +115,10 @@ class ExploreTest(RicochetCase):
         self.assertEqual(self.curl({}, kind="text/plain")[0], 415)
         self.assertEqual(self.sent(f"GET {SERVICE}Solve?token={self.token} HTTP/1.1\r\nHost: {self.host}\r\n"
                                    "Connection: close\r\n\r\n")[0], "HTTP/1.1 405 Method Not Allowed")
+        for method in ("POST", "DELETE"):
+            self.assertEqual(self.sent(f"{method} /?token={self.token} HTTP/1.1\r\nHost: {self.host}\r\n"
+                                       "Content-Length: 0\r\nConnection: close\r\n\r\n")[0],
+                             "HTTP/1.1 405 Method Not Allowed")
 
     def test_keeps_the_deadline_of_a_client(self):
         scene = {"spatial_contact": {"w_per_kg": [1.96, 0.24, 0.6, 2.96, -0.8, 1.85], "tangential_m_s": [1, 0.6],

@@ -35,7 +35,7 @@ REQUEST = json.dumps({"scene": json.loads(SCENE), "columns": ["coefficients.newt
     {"path": "friction.kinetic_coefficient", "list": {"values": [0.1, 0.2, 0.3]}}]})
 SWEEP_CSV = "index,friction.kinetic_coefficient,coefficients.newton\n0,0.1,0.7\n1,0.2,0.6\n2,0.3,0.5\n"
 
-# What follows the words of a subcommand so that it answers, once for each way in which it writes something else.
+# These words follow those of a subcommand so that it answers, once for each way in which it writes something else.
 COMMANDS = {
     "solve": [PENDULUM, [*PENDULUM, "--data", str(INPUTS / "rows.csv")]],
     "bounds": [[*PENDULUM, "--mu", "0.1"]],
@@ -59,7 +59,7 @@ COMMANDS = {
 }
 # Options that speak of files or paths and are no names of files to read or to write.
 NO_FILES = {"--axis", "--range", "--server", "merge file"}
-# What stands in the file of each option that reads one.
+# The file of each option that reads one holds this.
 CONTENT = {"--scene": SCENE, "--request": REQUEST, "plot file": SWEEP_CSV, "solve --data": ROWS, "audit --data": OBSERVED, "fit --data": OBSERVED,
            "conformance grade ANSWERS": ANSWERS, "--config": 'deadline = "5s"\n', "--token-file": "secret\n"}
 ENDINGS = {"text": ["txt"], "textproto": ["textproto", "txtpb", "pbtxt", "txt"], "json": ["json"], "jsonl": ["jsonl"],

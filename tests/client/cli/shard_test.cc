@@ -116,7 +116,7 @@ TEST_F(CliShard, GoOnAfterKillMinusNine) {
   EXPECT_THAT(Files(),
               ElementsAre("s.shard-0-of-2.part", "s.shard-0-of-2.part.json", "s.shard-1-of-2", "s.shard-1-of-2.json"));
   ExpectRefused("no shard has points 0 to 1499999, before shard 1 of 2 (s.shard-1-of-2)");
-  // What is done is kept: its first bytes stay those of the run before.
+  // The finished part is kept: its first bytes stay those of the run before.
   const CliResult result = RunShell("ls -i s.shard-0-of-2.part | cut -d ' ' -f 1 > before\n" + shard(0) +
                                     "\nls -i s.shard-0-of-2 | cut -d ' ' -f 1 | cmp - before");
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -190,7 +190,7 @@ TEST_F(CliShard, WhoseManifestLiesAreRefused) {
   ExpectRefused("shard 0 of 2 (s.shard-0-of-2): the sweep's next chunk should start at point 0");
 }
 
-// What a task is told, and the shard that it computes.
+// A task is told this, and computes that shard.
 struct Place {
   std::string environment;
   std::string flags;
@@ -218,7 +218,7 @@ TEST_P(CliShardPlace, IsThatOfTheTask) {
   EXPECT_THAT(Files(), Contains(GetParam().file));
 }
 
-// What is wrong with a place, and what is said of it.
+// A wrong place, and the words that are said of it.
 struct WrongPlace {
   std::string environment;
   std::string flags;

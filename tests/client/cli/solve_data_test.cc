@@ -28,7 +28,7 @@ class CliSolveData : public CliTest {
   }
 };
 
-// What stands in the second of two cells, and what is said of it after the name of its column.
+// The text in the second of two cells, and the words that are said of it after the name of its column.
 struct Cell {
   const char* text;
   const char* reason;

@@ -77,7 +77,7 @@ TEST(Listener, AddressOfAnotherHostIsRefused) {
 
 TEST(Listener, UnixSocketHasTheModeAskedForAndIsRemoved) {
   const SocketPath at;
-  for (const mode_t mode : {0600, 0660, 0666}) {
+  for (const mode_t mode : {0600u, 0660u, 0666u}) {
     {
       const auto listeners = Listener::Open(at.address(), mode);
       ASSERT_TRUE(listeners.ok()) << listeners.status();

@@ -66,7 +66,7 @@ const double kTiny = 1e-25;
 
 size_t At(int i) { return static_cast<size_t>(i); }
 
-// What both simulations keep.
+// The state that both simulations keep.
 struct Motion {
   explicit Motion(const Problem& problem) : k(problem.k), w(At(2 * k), Reals(At(2 * k))), v(At(2 * k)), p(At(2 * k)) {
     for (int i = 0; i < 2 * k; ++i) {

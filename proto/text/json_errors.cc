@@ -1,4 +1,4 @@
-#include "client/cli/input/json_errors.h"
+#include "proto/text/json_errors.h"
 
 #include <google/protobuf/descriptor.h>
 
@@ -15,7 +15,7 @@
 #include "absl/strings/str_replace.h"
 #include "core/base/nearest.h"
 
-namespace ricochet::cli {
+namespace ricochet {
 namespace {
 
 using google::protobuf::Descriptor;
@@ -46,7 +46,7 @@ class Counting {
   size_t* read_;
 };
 
-// Follows the parser through a text, with the field of the proto at hand. A field that is null is not set.
+// Follows the parser through a text, with the field of the proto at hand.
 class Checker : public nlohmann::json_sax<nlohmann::json> {
  public:
   Checker(const std::string& text, const Descriptor& type) : text_(text), root_(&type) {}
@@ -54,18 +54,25 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
   size_t* read() { return &read_; }
   const std::string& error() const { return error_; }
 
-  bool null() override { return true; }
-  bool boolean(bool) override { return Value(FieldDescriptor::CPPTYPE_BOOL); }
-  bool number_integer(int64_t) override { return Number(); }
-  bool number_unsigned(uint64_t) override { return Number(); }
-  bool number_float(double, const std::string&) override { return Number(); }
+  // Null means that a field is not set. One that is always set would silently become 0, such as the friction of a
+  // program that writes null for NaN.
+  bool null() override {
+    const FieldDescriptor* field = Field();
+    const bool is_entry = !levels_.empty() && levels_.back().is_list;
+    if (field == nullptr || field->has_presence() || (field->is_repeated() && !is_entry)) return Next();
+    return Fail(absl::StrCat(Path(), " = null: must have a value, or be left out"));
+  }
+  bool boolean(bool) override { return Value(FieldDescriptor::CPPTYPE_BOOL) && Next(); }
+  bool number_integer(int64_t) override { return Number() && Next(); }
+  bool number_unsigned(uint64_t) override { return Number() && Next(); }
+  bool number_float(double, const std::string&) override { return Number() && Next(); }
   bool string(std::string& words) override {
     const FieldDescriptor* field = Field();
     double number = 0.0;
     if (field != nullptr && field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE && !absl::SimpleAtod(words, &number)) {
       return Fail(absl::StrCat(Path(), " = \"", words, "\": must be a number"));
     }
-    return Value(FieldDescriptor::CPPTYPE_STRING);
+    return Value(FieldDescriptor::CPPTYPE_STRING) && Next();
   }
   bool binary(nlohmann::json::binary_t&) override { return true; }
 
@@ -122,7 +129,7 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     const Descriptor* type = nullptr;       // The message; null if it is not known.
     const FieldDescriptor* list = nullptr;  // The field of a list.
     bool is_list = false;
-    size_t entries = 0;  // Those of a list before the one at hand.
+    size_t entries = 0;  // So many entries of a list precede the one at hand.
     const FieldDescriptor* field = nullptr;
     std::string name = {};
     std::map<std::string, std::string> given = {};  // How each field that was given before is spelled, by its name.
@@ -192,6 +199,11 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
 
   bool Leave() {
     levels_.pop_back();
+    return Next();
+  }
+
+  // Goes on after a value.
+  bool Next() {
     if (!levels_.empty() && levels_.back().is_list) ++levels_.back().entries;
     return true;
   }
@@ -219,4 +231,4 @@ std::string ExplainJson(const std::string& text, const Descriptor& type) {
   return checker.error();
 }
 
-}  // namespace ricochet::cli
+}  // namespace ricochet

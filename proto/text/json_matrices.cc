@@ -1,4 +1,4 @@
-#include "client/cli/input/json_matrices.h"
+#include "proto/text/json_matrices.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@
 #include "absl/strings/string_view.h"
 #include "ricochet/contact_matrix.h"
 
-namespace ricochet::cli {
+namespace ricochet {
 namespace {
 
 constexpr char kBlanks[] = " \t\r\n";
@@ -116,4 +116,4 @@ absl::StatusOr<std::string> WithFlatMatrices(const std::string& text) {
   return flat;
 }
 
-}  // namespace ricochet::cli
+}  // namespace ricochet

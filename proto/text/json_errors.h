@@ -1,7 +1,7 @@
 // Explains why a JSON text is not a message: where, which field, and what would be right.
 
-#ifndef RICOCHET_CLIENT_CLI_INPUT_JSON_ERRORS_H_
-#define RICOCHET_CLIENT_CLI_INPUT_JSON_ERRORS_H_
+#ifndef RICOCHET_PROTO_TEXT_JSON_ERRORS_H_
+#define RICOCHET_PROTO_TEXT_JSON_ERRORS_H_
 
 #include <string>
 
@@ -9,7 +9,7 @@ namespace google::protobuf {
 class Descriptor;
 }
 
-namespace ricochet::cli {
+namespace ricochet {
 
 // Returns the first error with its line, column and path: "line 2, column 14: pendulum.a: is no field of Pendulum". A
 // field that is given twice is an error, although the parser of the protos would silently take the second. Returns an
@@ -20,6 +20,6 @@ std::string ExplainJson(const std::string& text, const google::protobuf::Descrip
 // or all.
 std::string FieldHint(const google::protobuf::Descriptor& type, const std::string& name);
 
-}  // namespace ricochet::cli
+}  // namespace ricochet
 
-#endif  // RICOCHET_CLIENT_CLI_INPUT_JSON_ERRORS_H_
+#endif  // RICOCHET_PROTO_TEXT_JSON_ERRORS_H_

@@ -1,0 +1,105 @@
+#include "proto/text/message_text.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "absl/strings/str_split.h"
+#include "proto/text/json_errors.h"
+#include "proto/text/json_matrices.h"
+#include "proto/wire/message_content.h"
+#include "ricochet/v1/multi_contact.pb.h"
+#include "ricochet/v1/scene.pb.h"
+
+namespace ricochet {
+namespace {
+
+// The parser says: Message type "ricochet.v1.Pendulum" has no field named "am".
+std::string WithNearestField(const std::vector<std::string>& quoted) {
+  const auto* const type = google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(quoted[1]);
+  return absl::StrCat(quoted[1], " has no field \"", quoted[3], "\"",
+                      type == nullptr ? "" : FieldHint(*type, quoted[3]));
+}
+
+// The parser says: Field "b" is specified along with field "a", another member of oneof "system".
+std::string InWords(const std::string& message) {
+  const std::vector<std::string> quoted = absl::StrSplit(message, '"');
+  if (quoted.size() == 5 && absl::StrContains(message, "has no field named")) return WithNearestField(quoted);
+  if (quoted.size() != 7 || !absl::StrContains(message, "another member of oneof")) return message;
+  return absl::StrCat("\"", quoted[1], "\" cannot be given beside \"", quoted[3], "\": there is one ",
+                      absl::StrReplaceAll(quoted[5], {{"_", " "}}), " only");
+}
+
+// Keeps the first error of the textproto parser.
+class FirstError final : public google::protobuf::io::ErrorCollector {
+ public:
+  void AddError(int line, google::protobuf::io::ColumnNumber column, const std::string& message) override {
+    if (text.empty()) text = absl::StrCat("line ", line + 1, ", column ", column + 1, ": ", InWords(message));
+  }
+  std::string text;
+};
+
+// Says which enum has a value that it does not know, as both parsers take any number for one.
+std::string UnknownIn(const google::protobuf::Message& message) {
+  constexpr int64_t kAnyNumber = std::numeric_limits<int64_t>::max();
+  return std::string(CheckContent(message.SerializeAsString(), *message.GetDescriptor(), kAnyNumber).message());
+}
+
+bool IsJson(const std::string& path, const std::string& text) {
+  if (absl::EndsWithIgnoreCase(path, ".json")) return true;
+  for (const char* ending : {".textproto", ".txtpb", ".pbtxt"}) {
+    if (absl::EndsWithIgnoreCase(path, ending)) return false;
+  }
+  const size_t start = text.find_first_not_of(" \t\r\n");
+  return start != std::string::npos && text[start] == '{';
+}
+
+std::string WhyNoText(const std::string& text, google::protobuf::Message& message) {
+  FirstError error;
+  google::protobuf::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&error);
+  if (parser.ParseFromString(text, &message)) error.text = UnknownIn(message);
+  if (error.text.empty()) return "";
+  return absl::StrCat("is not a ", message.GetTypeName(), " in textproto: ", error.text);
+}
+
+std::string WhyNotAs(const std::string& path, const std::string& text, google::protobuf::Message& message) {
+  return IsJson(path, text) ? WhyNoJson(text, message) : WhyNoText(text, message);
+}
+
+}  // namespace
+
+std::string WhyNoMessage(const std::string& path, const std::string& text, google::protobuf::Message& message) {
+  std::string wrong = WhyNotAs(path, text, message);
+  if (wrong.empty()) return "";
+  v1::Scene one;
+  if (message.GetDescriptor() == v1::MultiContactScene::descriptor() && WhyNotAs(path, text, one).empty()) {
+    return "has one contact: `ricochet solve --scene` takes it";
+  }
+  v1::MultiContactScene several;
+  if (message.GetDescriptor() == v1::Scene::descriptor() && WhyNotAs(path, text, several).empty()) {
+    return "has several contacts: `ricochet multicontact --scene` takes it";
+  }
+  return wrong;
+}
+
+std::string WhyNoJson(const std::string& text, google::protobuf::Message& message) {
+  const absl::StatusOr<std::string> flat = WithFlatMatrices(text);
+  std::string wrong(flat.ok() ? ExplainJson(*flat, *message.GetDescriptor()) : flat.status().message());
+  if (wrong.empty()) {
+    const auto status = google::protobuf::util::JsonStringToMessage(*flat, &message);
+    wrong = status.ok() ? UnknownIn(message) : status.message().ToString();
+    if (wrong.empty()) return "";
+  }
+  return absl::StrCat("is not a ", message.GetTypeName(), " in JSON: ", wrong);
+}
+
+}  // namespace ricochet
