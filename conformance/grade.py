@@ -23,7 +23,7 @@ import numpy as np
 LAWS = ('newton', 'poisson', 'energetic')
 LIMITS = ('energy', 'approach', 'cone', 'symmetry')
 ROUNDING = 2.0 ** -46
-DEPENDENT = 1e-13  # Below this share of a diagonal entry a pivot is rounding.
+DEPENDENT = 3e-7  # Columns whose singular values are below this share of the largest are taken for dependent.
 
 
 def refuse(message):
@@ -134,54 +134,41 @@ def check(value, excess, allowance):
     return {'value': float(value), 'excess': float(excess), 'broken': bool(excess > allowance)}
 
 
-def shares_of(effects, change):
-    """By how much of each (momentum, velocity) the change is caused; none if they depend on each other."""
-    products = np.array([[p @ v for _, v in effects] for p, _ in effects])
-    rest, right = products.copy(), np.array([p @ change for p, _ in effects])
-    for i in range(len(effects)):
-        if not rest[i, i] > DEPENDENT * products[i, i]:
-            return None
-        for j in range(i + 1, len(effects)):
-            factor = rest[j, i] / rest[i, i]
-            rest[j] -= factor * rest[i]
-            right[j] -= factor * right[i]
-    return np.linalg.solve(np.triu(rest), right)
+def least_squares(a, b):
+    """Returns the x that makes |a x - b| least; none if the columns of a depend on each other."""
+    x, _, rank, _ = np.linalg.lstsq(a, b, rcond=DEPENDENT)
+    return x if rank == a.shape[1] else None
 
 
-def edge_effects(case, change):
-    """What unit impulses along the edges of (pyramids inside) the friction cones do."""
-    def effect(impulse):
-        momentum = case.jacobian.T @ impulse
-        return momentum, np.linalg.solve(case.mass, momentum)
+def edge_impulses(case, effects, change):
+    """Returns impulses along the edges of (pyramids inside) the friction cones, by what unit impulses do."""
     edges = [[1.0], [-1.0]]
     if case.dimension == 3:
-        impulse = shares_of([effect(row) for row in np.eye(3)], change)
+        impulse = least_squares(effects, change)
         length = 0.0 if impulse is None else math.hypot(impulse[0], impulse[1])
         c, s = (impulse[0] / length, impulse[1] / length) if length > 0 else (1.0, 0.0)
         edges = [[c, s], [-c, -s], [-s, c], [s, -c]]
-    effects, d = [], case.dimension
+    d = case.dimension
     for contact, friction in enumerate(case.friction):
         for edge in edges[:1] if friction == 0 else edges:
             impulse = np.zeros(len(case.jacobian))
             impulse[contact * d:contact * d + d] = [friction * x for x in edge] + [1.0]
-            effects.append(effect(impulse))
-    return effects
+            yield impulse
 
 
 def outside_cones(case, change):
     """What is left of the change after the impulse within the friction cones that leaves the least kinetic energy."""
-    effects = edge_effects(case, change)
-    least, least_energy = change, change @ case.mass @ change
-    for size in range(1, len(effects) + 1):
-        for chosen in itertools.combinations(effects, size):
-            shares = shares_of(chosen, change)
-            if shares is None or min(shares) < 0:
-                continue
-            left = change - sum(share * velocity for share, (_, velocity) in zip(shares, chosen))
-            energy = left @ case.mass @ left
-            if energy < least_energy:
-                least, least_energy = left, energy
-    return least
+    # With M = L L^T, the square of L^T v is twice the kinetic energy of v, and an impulse p causes L^T v = L^-1 J^T p.
+    root = np.linalg.cholesky(case.mass)
+    least = whole = root.T @ change
+    effects = np.linalg.solve(root, case.jacobian.T)
+    edges = effects @ np.array(list(edge_impulses(case, effects, whole))).T
+    for size in range(1, edges.shape[1] + 1):
+        for chosen in itertools.combinations(range(edges.shape[1]), size):
+            shares = least_squares(edges[:, chosen], whole)
+            if shares is not None and min(shares) >= 0:
+                least = min(least, whole - edges[:, chosen] @ shares, key=np.linalg.norm)
+    return np.linalg.solve(root.T, least)
 
 
 def limits_of(case, after, tolerance):

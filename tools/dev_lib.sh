@@ -3,7 +3,7 @@
 # shellcheck shell=bash disable=SC2034  # The scripts read the variables.
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit
 
-# What the core takes without its optional components; then these; then the service.
+# The packages of the core without its optional components; then these; then the service.
 readonly core_packages=(ccache cmake g++ libabsl-dev libeigen3-dev libhwy-dev libsleef-dev ninja-build)
 readonly client_packages=(
   cmake g++ libabsl-dev libgrpc++-dev libisal-dev libprotobuf-dev libssl-dev ninja-build protobuf-compiler-grpc)
@@ -34,10 +34,13 @@ readonly example=(--a 0.3 --b 1 --mu 0.1 --energetic 1)
 # Objects are the same in every directory, so that ccache has them for a second build elsewhere.
 export CCACHE_NOHASHDIR=1 CCACHE_BASEDIR=${CCACHE_BASEDIR:-$PWD}
 
+# The servers and pages of the tests are on this host, where no proxy is to be asked for them.
+export no_proxy=${no_proxy:+$no_proxy,}127.0.0.1,localhost,::1
+
 # Not empty if the command was asked for its short form.
 short=
 
-# What must not outlive a script, whatever ends it.
+# These must not outlive a script, whatever ends it.
 server_pid=
 temporary=
 container=

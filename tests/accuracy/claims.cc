@@ -49,7 +49,7 @@ struct Jobs {
   std::vector<Job> all;
 };
 
-// What the median of claimed over achieved shall be at most.
+// The median of claimed over achieved shall be at most this.
 struct Goal {
   const char* method;
   double median;
@@ -140,7 +140,8 @@ void AddSeveralContacts(int count, Jobs& jobs) {
   for (int part = 0; part < kParts; ++part) {
     jobs.all.push_back([=] {
       const int scenes = count / kParts;
-      const auto claims = multi::MultiContactClaimsOf(scenes, 1 + static_cast<uint64_t>(part) * scenes);
+      const auto claims =
+          multi::MultiContactClaimsOf(scenes, 1 + static_cast<uint64_t>(part) * static_cast<uint64_t>(scenes));
       const std::string name = "part " + std::to_string(part + 1);
       return std::vector<Row>{{"contacts, orders", name, claims.orders},
                               {"contacts, missing", name, claims.missing},

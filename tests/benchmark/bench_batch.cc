@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "absl/functional/function_ref.h"
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
 #include "core/models/planar/columns.h"
@@ -179,6 +180,26 @@ void RunAgainstLanes(const Solver& local, double tolerance) {
         absl::StrFormat("%.2f of the planar model in lanes alone", compared.ratio));
 }
 
+// Measures what derivatives of two numbers of the outcome by four of the scene add to a row.
+void RunWithDerivatives(const Solver& local) {
+  constexpr size_t kRows = 10'000;
+  Batch without = Contacts(kRows, 1e-12);
+  Batch with = Contacts(kRows, 1e-12);
+  for (const size_t of : {0u, 1u}) {
+    for (const size_t by : {0u, 1u, 3u, 5u}) {
+      with.setup.columns.push_back(absl::StrCat("d(", with.setup.columns[of], ")/d(", with.setup.fields[by], ")"));
+      with.out.emplace_back(kRows);
+    }
+  }
+  const auto solve = [&local](Batch& batch) {
+    if (!local.OpenBatches(batch.setup)->Solve(batch.Rows()).ok()) std::abort();
+  };
+  const Comparison compared = Compare(
+      11, [&] { solve(with); }, [&] { solve(without); });
+  Print("A planar contact with 8 derivatives in a batch", absl::StrFormat("%.0f ns", compared.seconds_a / kRows * 1e9),
+        absl::StrFormat("%.1f x without them, goal 3", compared.ratio));
+}
+
 // The rate on two threads against that on one.
 void CompareThreads(const char* what, double goal, absl::FunctionRef<void(const Solver&)> solve) {
   const LocalSolver one(Limits::None(), 1);
@@ -236,7 +257,7 @@ void Run(const char* name, const Solvers& solvers, Batch (*make)(size_t, double)
   std::printf("%s, tolerance %.0e, medians of %d rounds\n", name, tolerance, kRounds);
   std::printf("  %9s %16s %16s %16s %18s\n", "rows", "one thread M/s", "all cores M/s", "loopback M/s",
               "loopback us/call");
-  for (const size_t rows : {1, 64, 1000, 10'000, 100'000}) {
+  for (const size_t rows : {1u, 64u, 1000u, 10'000u, 100'000u}) {
     Batch batch = make(rows, tolerance);
     const double alone = Rate(solvers.one_thread, batch);
     const double together = Rate(solvers.all_cores, batch);
@@ -259,6 +280,7 @@ int main() {
   if (!client.ok()) return 1;
   const Solvers solvers = {.remote = *client};
   RunAgainstLanes(solvers.one_thread, 1e-12);
+  RunWithDerivatives(solvers.one_thread);
   CompareThreads();
   Run("Planar contacts", solvers, Contacts, 1e-12);
   Run("Planar contacts", solvers, Contacts, 1e-6);

@@ -28,7 +28,7 @@ constexpr int kTimes = 8;
 constexpr size_t kContacts = 1024;
 constexpr double kDefaultTolerance = 1e-12;
 
-// What a simulator needs of a contact, beside its regime.
+// A simulator needs these numbers of a contact, beside its regime.
 constexpr std::array kStep = {Output::kTangentialVelocityAfter, Output::kNormalVelocityAfter, Output::kNormalImpulse,
                               Output::kTangentialImpulse,       Output::kEnergyChange,        Output::kRelativeError};
 

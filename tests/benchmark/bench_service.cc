@@ -136,7 +136,7 @@ void SweepByColumns(Loopback& ricochet, Loopback& echo) {
   std::printf("Sweep by columns, %.0e points, medians of %d rounds\n", static_cast<double>(kPoints), kRounds);
   std::printf("  %7s %14s %14s %16s %14s %16s\n", "columns", "local M/s", "served M/s", "empty stream M/s",
               "served/local", "served/empty");
-  for (const size_t count : {1, 2, 4, 8, 12, 16, 19}) {
+  for (const size_t count : {1u, 2u, 4u, 8u, 12u, 16u, 19u}) {
     const SweepRequest request = SweepOf({std::begin(kColumns), std::begin(kColumns) + count}, kPoints);
     const v1::SweepRequest wire = ToProto(request);
     const auto served = [&] { DoNotOptimize(ReadSweep(ricochet.stub(), wire)); };

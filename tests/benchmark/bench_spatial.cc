@@ -77,7 +77,7 @@ void Measure(const char* what, const std::vector<Problem>& problems) {
                         errors.largest, terms / kCount, time.ratio));
 }
 
-// The same impacts together, in SIMD lanes.
+// Solves the same impacts together, in SIMD lanes.
 void MeasureColumns(const char* what, const std::vector<Problem>& problems) {
   std::vector<spatial::Impact> impacts(problems.size());
   const Comparison time = Compare(
@@ -118,7 +118,7 @@ void CompareTolerances(const std::vector<Problem>& problems) {
       seconds.push_back(SecondsOf(problem));
     }
     size_t slower = 0;
-    for (size_t i = 0; i < tighter.size(); ++i) slower += seconds[i] > 1.2 * tighter[i] ? 1 : 0;
+    for (size_t i = 0; i < tighter.size(); ++i) slower += seconds[i] > 1.2 * tighter[i] ? 1u : 0u;
     const double mean = std::accumulate(seconds.begin(), seconds.end(), 0.0) / kCount;
     std::string note = "the tightest";
     if (!tighter.empty()) {

@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 COUNT = 20
-# What a solve should execute at most, by its system, and how often it should ask for memory.
+# A solve should execute at most so many instructions, by its system, and how often it should ask for memory.
 GOALS = {"planar_contact": 4200, "pendulum": 3500, "planar_body": 4200}
 MOST_ALLOCATIONS = 2
 SOLVE = "ricochet::bench::(anonymous namespace)::SolveOnce("

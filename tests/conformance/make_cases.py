@@ -42,7 +42,7 @@ class Case:
         self.frame = [mpf(x) for x in data.get('frame_velocity', [0] * len(self.before))]
         self.contacts = [(mpf(c['friction']), mpf(c['coefficient'])) for c in data['contacts']]
         self.dimension = len(self.jacobian) // len(self.contacts)
-        self.columns = [solve_linear(self.mass, row) for row in self.jacobian]  # Those of M^-1 J^T.
+        self.columns = [solve_linear(self.mass, row) for row in self.jacobian]  # The columns of M^-1 J^T.
         self.w = [[sum(a * b for a, b in zip(row, column)) for column in self.columns] for row in self.jacobian]
         self.velocity = times(self.jacobian, [q - f for q, f in zip(self.before, self.frame)])
 

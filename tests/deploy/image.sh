@@ -9,7 +9,7 @@ readonly base_image=docker.io/library/debian:bookworm-slim
 make_base_image() {
   ! buildah inspect --type image "$base_image" &>/dev/null || return 0
   say "Making $base_image from Debian's packages, as no copy of it is here"
-  # What the public slim image leaves out as well, and the package usrmerge, which would bring 30 MB of Perl.
+  # The public slim image leaves these out as well, and the package usrmerge, which would bring 30 MB of Perl.
   make_debian "$temporary/base.tar" --hook-dir=/usr/share/mmdebstrap/hooks/merged-usr --include=usr-is-merged \
     --dpkgopt='path-exclude=/usr/share/doc/*' --dpkgopt='path-exclude=/usr/share/locale/*' \
     --dpkgopt='path-exclude=/usr/share/man/*'

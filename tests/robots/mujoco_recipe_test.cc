@@ -147,7 +147,7 @@ TEST_P(FloatingArm, IsOneRigidBodyWhereItsJointsHold) {
   EXPECT_NEAR(held.impulse.normal_total_n_s, rigid.impulse.normal_total_n_s, 1e-9);
   for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(held.rates_after[3 + i], rigid.bodies_after[0].angular_rad_s[i], 1e-9);
   EXPECT_EQ(held.rates_after[6], 0.0);
-  // What the joints pass on is far from nothing: the arm alone would give way.
+  // The joints pass on far more than nothing: the arm alone would give way.
   mechanism.composite = false;
   EXPECT_LT(Solve(With(mechanism, 0.2, 0.5)).impulse.normal_total_n_s, 0.8 * held.impulse.normal_total_n_s);
 }
