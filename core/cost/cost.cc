@@ -17,6 +17,7 @@
 #include "core/cost/methods_by_model.h"
 #include "core/cost/stopwatch.h"
 #include "core/scene/validate.h"
+#include "core/scene/validate_multi.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
@@ -27,6 +28,8 @@ constexpr char kSlowNote[] = "The method had no answer within its part of the ti
 constexpr char kNoScaleNote[] =
     "The velocity before the impact is below the least double, so that no error is a fraction of it.";
 constexpr char kNoReferenceNote[] = "No reference was found, so that the error is not known.";
+constexpr char kNoReference[] = "none is known";
+constexpr char kManyOutcomes[] = "there is none, because rigid bodies alone do not decide between the outcomes";
 constexpr char kLongBatchNote[] = "A batch would take more than 2 % of the time limit.";
 constexpr char kOneSampleNote[] = "There was time for one solve only.";
 constexpr char kOverflowNote[] = "The answer exceeds the largest double.";
@@ -53,6 +56,7 @@ std::vector<Violation> CheckOptions(const CostRequest& request) {
 }
 
 ContactVelocity ToContactVelocity(const Velocity3& velocity, size_t directions) {
+  if (directions == 0) return {};
   ContactVelocity result = {.tangential_m_s = {velocity[0]}, .normal_m_s = velocity[2]};
   if (directions == 2) result.tangential_m_s.push_back(velocity[1]);
   return result;
@@ -149,11 +153,12 @@ class CostStudy::Impl {
     row.right_hand_sides = answer.right_hand_sides;
     const bool finite = IsFinite(answer.velocity);
     row.status = answer.failure.empty() && finite ? CostStatus::kMeasured : CostStatus::kFailed;
+    AddNote(answer.note, row);
     AddNote(answer.failure.empty() && !finite ? kOverflowNote : answer.failure, row);
     if (row.status == CostStatus::kFailed) return;
     row.velocity_after = ToContactVelocity(answer.velocity, study_.directions);
     row.claimed.numerical = answer.claimed + method.claimed_reduction;
-    row.claimed.modelling = method.claimed_modelling;
+    row.claimed.modelling = method.claimed_modelling + answer.modelling;
     row.claimed.total = row.claimed.numerical + row.claimed.modelling;
   }
 
@@ -195,14 +200,16 @@ class CostStudy::Impl {
   }
 
   CostSummary Summarise(Stopped stopped) {
-    CostSummary summary = {.front = ParetoFront(rows_), .picks = PicksFor(scene_, contact_, rows_)};
+    CostSummary summary = {.front = ParetoFront(rows_)};
+    const bool has_plan = study_.directions > 0;
+    if (has_plan) summary.picks = PicksFor(scene_, contact_, rows_);
     const ReferenceVelocity* const truth = study_.truth == nullptr ? nullptr : study_.truth->Get(stopped);
     if (truth != nullptr) {
       summary.reference = ToContactVelocity(RoundedVelocity(*truth), study_.directions);
       summary.reference_source = truth->source;
       summary.reference_error = truth->error;
     } else {
-      summary.reference_source = kNoReferenceNote;
+      summary.reference_source = has_plan ? kNoReference : kManyOutcomes;
     }
     for (const CostRow& row : rows_) {
       if (row.ClaimIsBroken()) ++summary.deceived;
@@ -228,10 +235,18 @@ class CostStudy::Impl {
 
 absl::StatusOr<CostStudy> CostStudy::Make(const CostRequest& request) {
   std::optional<SceneContact> contact;
-  std::vector<Violation> violations = Validate(request.scene, RestitutionIs::kRequired, contact);
+  std::optional<MultiReduction> reduction;
+  std::vector<Violation> violations;
+  if (request.multi_contact.has_value()) {
+    violations = Validate(MultiContactRequest{.scene = *request.multi_contact}, reduction);
+    if (request.scene != Scene()) violations.push_back({"scene", "is set: must be left out beside multi_contact"});
+  } else {
+    violations = Validate(request.scene, RestitutionIs::kRequired, contact);
+  }
   for (Violation& violation : CheckOptions(request)) violations.push_back(std::move(violation));
   if (!violations.empty()) return InvalidRequest(violations);
-  absl::StatusOr<StudiedScene> study = StudyScene(request.scene, contact);
+  absl::StatusOr<StudiedScene> study = reduction.has_value() ? StudyMultiContact(*request.multi_contact, *reduction)
+                                                             : StudyScene(request.scene, contact);
   if (!study.ok()) return study.status();
   return CostStudy(std::make_unique<Impl>(request, std::move(contact), *std::move(study)));
 }

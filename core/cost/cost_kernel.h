@@ -27,11 +27,13 @@ using Velocity3 = std::array<double, 3>;
 // The part of a model's answer that a study reads.
 struct KernelAnswer {
   Velocity3 velocity = {};
-  double claimed = 0.0;  // The model's own numerical error over V, as a bound or an estimate.
+  double claimed = 0.0;    // The model's own numerical error over V, as a bound or an estimate.
+  double modelling = 0.0;  // What the answer says of effects that are left out, over V.
   // The numerical error over V, if the answer has more digits than doubles can tell.
   std::optional<double> numerical_error;
   int64_t steps = 0;
   int64_t right_hand_sides = 0;
+  std::string note;      // One sentence about the answer; may be empty.
   std::string failure;   // One sentence that says why there is no answer; empty if there is one.
   bool stopped = false;  // The caller wanted no more; the rest has no meaning.
 };

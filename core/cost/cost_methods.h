@@ -6,6 +6,7 @@
 //              spring has damping, because a stiffness changes nothing else but the time that the impact takes
 //   space      frictionless, sliding, space at tolerances from 1e-2 to 1e-12
 //   rigid contacts in a plane also certified, at 16, 32 and 64 digits; an impact law alone
+//   several contacts: orders, springs and possible, as far as the scene allows each
 //
 // The closed form and the planar model come in plain and in compensated arithmetic. A model that leaves out an effect
 // of the scene applies, too, if core/plan/ can compute the impact without that effect; its claim is then the size that
@@ -30,9 +31,12 @@
 #include "core/cost/cost_kernel.h"
 #include "core/cost/reference_velocity.h"
 #include "ricochet/cost.h"
+#include "ricochet/multi_contact.h"
 #include "ricochet/scene.h"
 
 namespace ricochet {
+
+struct MultiReduction;
 
 // An exact answer that is computed when it is first asked for, because some take long.
 class Reference {
@@ -63,14 +67,18 @@ struct StudiedMethod {
 
 struct StudiedScene {
   std::vector<StudiedMethod> methods;
-  std::shared_ptr<Reference> truth;  // The exact answer with all effects of the scene; null under an impact law.
-  double speed = 0.0;                // V = max(|u0|, |v0|), m/s
-  size_t directions = 1;             // Tangential directions.
+  // The exact answer with all effects of the scene; null under an impact law and at several contacts.
+  std::shared_ptr<Reference> truth;
+  double speed = 0.0;     // V = max(|u0|, |v0|), m/s
+  size_t directions = 1;  // Tangential directions; 0 at several contacts.
 };
 
 // Lists the methods for a valid scene. `contact` is as in PlanScene (core/plan/planned_scene.h), and is set.
 // Errors: ContactOverflow.
 absl::StatusOr<StudiedScene> StudyScene(const Scene& scene, std::optional<SceneContact>& contact);
+
+// Lists the methods for a valid scene of several contacts, which was reduced.
+StudiedScene StudyMultiContact(const MultiContactScene& scene, const MultiReduction& reduction);
 
 }  // namespace ricochet
 

@@ -262,6 +262,9 @@ absl::Status CheckLimits(const SweepRequest& request, const Limits& limits) {
 }
 
 absl::Status CheckLimits(const CostRequest& request, const Limits& limits) {
+  if (request.multi_contact.has_value()) {
+    return CheckLimits(MultiContactRequest{.scene = *request.multi_contact}, limits);
+  }
   SizeCheck check(limits);
   check.Scene(request.scene);
   return check.status();

@@ -2,6 +2,7 @@
 
 #include "proto/wire/engine.h"
 #include "proto/wire/map.h"
+#include "proto/wire/multi_contact.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
 #include "proto/wire/scene.h"
@@ -12,7 +13,8 @@ template <>
 struct Map<CostRequest> : Between<CostRequest, v1::CostRequest> {
   using Fields = Entries<Entry(&T::scene, &P::scene, &P::mutable_scene),
                          Entry(&T::time_limit_s, &P::has_time_limit_s, &P::time_limit_s, &P::set_time_limit_s),
-                         Entry(&T::samples, &P::has_samples, &P::samples, &P::set_samples)>;
+                         Entry(&T::samples, &P::has_samples, &P::samples, &P::set_samples),
+                         Entry(&T::multi_contact, &P::has_multi_contact, &P::multi_contact, &P::mutable_multi_contact)>;
 };
 
 template <>
@@ -20,7 +22,8 @@ struct Map<CostMethod> : Between<CostMethod, v1::CostMethod> {
   using Fields =
       Entries<Entry(&T::model, &P::model, &P::set_model), Entry(&T::arithmetic, &P::arithmetic, &P::set_arithmetic),
               Entry(&T::tolerance, &P::has_tolerance, &P::tolerance, &P::set_tolerance),
-              Entry(&T::digits, &P::digits, &P::set_digits), Entry(&T::stiffness, &P::stiffness, &P::set_stiffness)>;
+              Entry(&T::digits, &P::digits, &P::set_digits), Entry(&T::stiffness, &P::stiffness, &P::set_stiffness),
+              Entry(&T::multi_contact, &P::multi_contact, &P::set_multi_contact)>;
 };
 
 template <>

@@ -154,6 +154,13 @@ struct Map<MultiContactResponse> : Between<MultiContactResponse, v1::MultiContac
       Entries<Entry(&T::answers, &P::answers, &P::mutable_answers), Entry(&T::engine, &P::engine, &P::mutable_engine)>;
 };
 
+void ToProto(const MultiContactScene& scene, v1::MultiContactScene& proto) {
+  Map<MultiContactScene>::Fields::Write(scene, proto);
+}
+void FromProto(const v1::MultiContactScene& proto, MultiContactScene& scene) {
+  Map<MultiContactScene>::Fields::Read(proto, scene);
+}
+
 v1::MultiContactScene ToProto(const MultiContactScene& scene) { return Sent(scene); }
 MultiContactScene FromProto(const v1::MultiContactScene& proto) { return Received<MultiContactScene>(proto); }
 

@@ -28,6 +28,8 @@ struct EnumPair<v1::MultiContactAnswer::Verdict>
 
 v1::MultiContactScene ToProto(const MultiContactScene& scene);
 MultiContactScene FromProto(const v1::MultiContactScene& proto);
+void ToProto(const MultiContactScene& scene, v1::MultiContactScene& proto);
+void FromProto(const v1::MultiContactScene& proto, MultiContactScene& scene);
 v1::MultiContactRequest ToProto(const MultiContactRequest& request);
 MultiContactRequest FromProto(const v1::MultiContactRequest& proto);
 v1::MultiContactResponse ToProto(const MultiContactResponse& response);

@@ -50,8 +50,8 @@ class Client:
 
     Use it as a context manager, or call ``close``. The options are those of the command line; one that is not given is
     taken from the environment (``RICOCHET_TLS_CA`` for ``tls_ca``), then from the TOML file that ``config`` or
-    ``RICOCHET_CONFIG`` names, as a line ``tls-ca = "FILE"``. Several threads may use one client, and compute at once;
-    after a fork it starts threads and opens connections of its own in the new process. Ctrl-C ends a call.
+    ``RICOCHET_CONFIG`` names, as a line ``tls-ca = "FILE"``. Several threads may use one client, and compute at once.
+    After a fork it has threads of its own in the new process, and both processes connect anew. Ctrl-C ends a call.
 
     Args:
         server: ``"HOST:PORT"`` or ``"unix:PATH"``; several with commas between them stand in for each other. None: the
@@ -125,6 +125,12 @@ class Client:
                 is_remote = bool(options["server"])
                 self._made = _core.of_server(options) if is_remote else _core.in_process(options["deadline"])
             return self._made
+
+    def _close_connection(self) -> None:
+        """Before a fork: gRPC must have no connection then. The next call opens another."""
+        if self._options is not None and self._options["server"]:
+            with self._lock:
+                self._made = None
 
     def _leave_to_parent(self) -> None:
         """In a forked process: leaves the threads and connections of the solver to the parent, whose they are."""
@@ -552,7 +558,7 @@ class Client:
         """Studies what the accuracy of one impact costs in time, on the machine that answers.
 
         Args:
-            scene: as in ``solve``.
+            scene: as in ``solve``; or as in ``multicontact``, a dictionary with ``contacts``.
             time_limit_s: time for the whole study, s; default 3.
             samples: samples taken of each time; default 21.
             progress: is called with the methods done and the methods in all, after each of them.
@@ -565,7 +571,10 @@ class Client:
             InvalidRequest: the scene or an option breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        return self._solver.cost(scene, {"time_limit_s": time_limit_s, "samples": samples}, progress)
+        arguments: dict[str, Any] = {"time_limit_s": time_limit_s, "samples": samples}
+        if isinstance(scene, Mapping) and "contacts" in scene:
+            scene, arguments["multi_contact"] = {}, scene
+        return self._solver.cost(scene, arguments, progress)
 
     def at_contact(
         self, M: ArrayLike, J: ArrayLike, qdot: ArrayLike, normal: ArrayLike, *, friction: ArrayLike = 0.0,
@@ -643,6 +652,12 @@ class ModuleClient(Client):
         self._options = None
 
 
+def _before_fork() -> None:
+    for client in list(_clients):
+        client._close_connection()
+    _core.before_fork()
+
+
 def _after_fork_in_child() -> None:
     _core.after_fork_in_child()
     for client in list(_clients):
@@ -650,7 +665,7 @@ def _after_fork_in_child() -> None:
 
 
 os.register_at_fork(
-    before=_core.before_fork, after_in_parent=_core.after_fork_in_parent, after_in_child=_after_fork_in_child
+    before=_before_fork, after_in_parent=_core.after_fork_in_parent, after_in_child=_after_fork_in_child
 )
 
 

@@ -11,6 +11,7 @@
 
 #include "ricochet/engine_info.h"
 #include "tests/contract/solvers.h"
+#include "tests/support/scenes/multi_contact_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
@@ -96,6 +97,11 @@ TEST_P(CostContract, GivesTheRowsOfTheOtherSolver) {
     const Chunks other = Read(Local().Cost(Request(With(system))));
     EXPECT_EQ(WithoutTimes(one), WithoutTimes(other));
   }
+}
+
+TEST_P(CostContract, GivesTheRowsOfTheOtherSolverForSeveralContacts) {
+  const CostRequest request = {.time_limit_s = 30.0, .samples = 1, .multi_contact = FallingBlock(1.0, 0.5)};
+  EXPECT_EQ(WithoutTimes(Read(solver().Cost(request))), WithoutTimes(Read(Local().Cost(request))));
 }
 
 TEST_P(CostContract, ABadRequestIsAStreamOfOneErrorWithEveryViolation) {

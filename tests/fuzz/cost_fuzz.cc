@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "core/scene/validate.h"
+#include "core/scene/validate_multi.h"
 #include "proto/wire/cost.h"
 #include "ricochet/solver.h"
 #include "tests/fuzz/fail.h"
@@ -52,8 +54,9 @@ void CheckMeasured(const CostRow& row) {
 
 void CheckRow(const CostRow& row) {
   if (row.name.empty() || row.name.size() > kMostName) Fail("a name is empty or long: " + row.name);
-  if (row.method.model == Model::kUnspecified || row.method.arithmetic == Arithmetic::kUnspecified) {
-    Fail(row.name + " has no model or no arithmetic");
+  const bool has_model = row.method.model != Model::kUnspecified && row.method.arithmetic != Arithmetic::kUnspecified;
+  if (has_model == (row.method.multi_contact != MultiContactMethod::kUnspecified)) {
+    Fail(row.name + " has no method, or two");
   }
   if (row.solve.has_value()) CheckTime(*row.solve);
   if (row.batch.has_value()) CheckTime(*row.batch);
@@ -113,12 +116,19 @@ void CheckSummary(const CostSummary& summary, const std::vector<CostRow>& rows) 
   }
   if (summary.deceived != 0) Fail("another count of methods that err by more than they claim");
   CheckFront(summary.front, rows);
-  CheckPicks(summary.picks, rows);
+  const bool is_one_contact = rows.empty() || rows.front().method.multi_contact == MultiContactMethod::kUnspecified;
+  if (is_one_contact) CheckPicks(summary.picks, rows);
+}
+
+bool IsValid(const CostRequest& request) {
+  if (!request.multi_contact.has_value()) return Validate(request.scene).empty();
+  std::optional<MultiReduction> reduction;
+  return request.scene == Scene() && Validate(MultiContactRequest{.scene = *request.multi_contact}, reduction).empty();
 }
 
 void Run(const v1::CostRequest& proto) {
   CostRequest request = FromProto(proto);
-  const bool valid = Validate(request.scene).empty();
+  const bool valid = IsValid(request);
   request.time_limit_s = kTimeLimitS;
   request.samples = 1;
   std::vector<CostRow> rows;

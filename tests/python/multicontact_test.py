@@ -56,6 +56,14 @@ class MultiContact(unittest.TestCase):
         self.assertEqual(slow, ricochet.multicontact(block()))
         self.assertAlmostEqual(turn(fast.orders[0]), 2 * turn(slow.orders[0]), delta=1e-14)
 
+    def test_cost_knows_the_methods(self):
+        study = ricochet.cost(block(), time_limit_s=10, samples=1)
+        self.assertEqual([row.name for row in study.rows], ["orders", "springs", "possible"])
+        self.assertEqual(study.rows[1].method.multi_contact, "SPRINGS")
+        answer = ricochet.multicontact(block(), methods="possible")
+        widest = max(bound.upper - bound.lower for bound in answer.possible[:4])
+        self.assertEqual(study.rows[2].claimed.total, widest)
+
     def test_what_is_wrong_is_named(self):
         for change, arguments, field in (
             ({"contacts": [{"friction": -1, "energetic": 0.5}, {"energetic": 2}]}, {}, "contacts[0].friction"),

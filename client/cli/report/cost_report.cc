@@ -57,11 +57,12 @@ std::string MethodsText(const CostChunk& study) {
 }
 
 std::string PicksText(const CostChunk& study) {
+  if (study.summary->picks.empty()) return "";
   std::string text = "Method that the plan picks\n";
   for (const CostPick& pick : study.summary->picks) {
     absl::StrAppendFormat(&text, "  %-16s   %s\n", PickRangeText(pick), PickName(study, pick));
   }
-  return text;
+  return text + "\n";
 }
 
 // A long list is told by its ends, because the same note goes with many rows in a row.
@@ -76,7 +77,7 @@ std::string NotesText(const CostChunk& study) {
   for (const CostNote& note : NotesOf(study)) {
     absl::StrAppend(&text, Wrapped(absl::StrCat(MethodNames(note.methods), ": ", note.text), 2));
   }
-  return text.empty() ? "" : absl::StrCat("\nNotes\n", text);
+  return text.empty() ? "" : absl::StrCat("Notes\n", text, "\n");
 }
 
 void AddTime(const std::string& name, const std::optional<CostTime>& time, CsvRow& row) {
@@ -222,9 +223,9 @@ std::string CostText(const CostChunk& study) {
   return absl::StrCat(
       Wrapped(absl::StrCat(study.rows.size(), " methods for one impact. The exact answer: ", summary.reference_source,
                            ".")),
-      "\n", MethodsText(study),
-      "\n* on the Pareto front: none is as fast and as exact. Errors are fractions of the velocity before.\n\n",
-      PicksText(study), NotesText(study), "\n", Wrapped(TrustText(study)),
+      "\n", MethodsText(study), "\n",
+      summary.front.empty() ? "" : "* on the Pareto front: none is as fast and as exact. ",
+      "Errors are fractions of the velocity before.\n\n", PicksText(study), NotesText(study), Wrapped(TrustText(study)),
       Wrapped(absl::StrCat(MachineText(summary.machine), "; ricochet ", study.engine.version, ", engine ",
                            study.engine.fingerprint)),
       "Measured in ", absl::StrFormat("%.2g", summary.elapsed_s), " s\n");

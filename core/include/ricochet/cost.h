@@ -5,6 +5,9 @@
 // found against a reference that is certified, or far more exact than the method. These structs mirror
 // ricochet.v1.CostRequest and CostResponse field by field; docs/accuracy.md says how each number is found.
 //
+// Several contacts at once have the methods of ricochet/multi_contact.h. Rigid bodies alone do not decide between their
+// outcomes, so that there is no exact answer: a row states what its method claims.
+//
 // Errors are those of the contact velocity after the impact, divided by V = max(|u0|, |v0|), as in
 // Accuracy::relative_error. Times are in seconds, of one thread with warm caches. Times differ from run to run, and
 // what follows from them; everything else has the same bits in every run that its time limit does not cut short.
@@ -18,6 +21,7 @@
 #include <vector>
 
 #include "ricochet/engine_info.h"
+#include "ricochet/multi_contact.h"
 #include "ricochet/outcome.h"
 #include "ricochet/plan.h"
 #include "ricochet/scene.h"
@@ -43,10 +47,12 @@ struct CostRequest {
   // Samples taken of each time, in [1, kMostCostSamples]; absent means kDefaultCostSamples. A slow method gets fewer,
   // so that every method has its share of the time.
   std::optional<int32_t> samples;
+  // Several contacts at once, in place of `scene`, which then states nothing.
+  std::optional<MultiContactScene> multi_contact;
   friend bool operator==(const CostRequest&, const CostRequest&) = default;
 };
 
-// One way to compute the impact.
+// One way to compute the impact. Several contacts have no model and no arithmetic.
 struct CostMethod {
   Model model = Model::kUnspecified;  // Certified arithmetic computes the model that is exact for a rigid contact.
   Arithmetic arithmetic = Arithmetic::kUnspecified;
@@ -55,10 +61,11 @@ struct CostMethod {
   // Stiffness of the normal spring in the units of its law (N/m for a linear spring); 0 if the impact takes no time. A
   // scene without a normal spring is given a linear one.
   double stiffness = 0.0;
+  MultiContactMethod multi_contact = MultiContactMethod::kUnspecified;  // Set for several contacts alone.
   friend bool operator==(const CostMethod&, const CostMethod&) = default;
 };
 
-// How the study of a method ended. The numbers are those of ricochet.v1.CostRow.Status.
+// Says how the study of a method ended. The numbers are those of ricochet.v1.CostRow.Status.
 enum class CostStatus {
   kUnspecified = 0,
   kMeasured = 1,     // Time and error are known.
@@ -81,7 +88,9 @@ struct CostTime {
 struct CostError {
   double total = 0.0;
   double numerical = 0.0;  // By rounding and by steps: the distance from the exact answer of the method's own model.
-  double modelling = 0.0;  // By the effects that the model leaves out: the distance between exact answers.
+  // By the effects that the model leaves out: the distance between exact answers. At several contacts it is the widest
+  // range of a contact velocity within which `possible` proves all outcomes; orders and springs prove none.
+  double modelling = 0.0;
   friend bool operator==(const CostError&, const CostError&) = default;
 };
 
@@ -103,7 +112,7 @@ struct CostRow {
   CostError claimed;                  // Bounds or estimates; infinite where no bound is known.
   std::optional<CostError> achieved;  // Absent if there is no answer, or nothing to compare it with.
   double reference_error = 0.0;       // Errors achieved are known to within this number.
-  ContactVelocity velocity_after;     // Answer of the method; empty without one.
+  ContactVelocity velocity_after;     // Answer of the method; empty without one, and at several contacts.
   int64_t steps = 0;                  // 0 for a closed form.
   int64_t right_hand_sides = 0;       // 0 for a closed form.
   friend bool operator==(const CostRow&, const CostRow&) = default;
@@ -117,7 +126,7 @@ inline constexpr double kCostTolerances[] = {0.0,  1e-16, 1e-15, 1e-14, 1e-13, 1
                                              1e-8, 1e-7,  1e-6,  1e-5,  1e-4,  1e-3,  1e-2,  1e-1};
 
 // A range of tolerances for which the plan picks one method. Ranges are in order and together hold all of
-// kCostTolerances.
+// kCostTolerances. Several contacts have none, because no tolerance is asked for.
 struct CostPick {
   int64_t row = -1;  // Index of the method's row; -1 if no row has the method.
   double least_tolerance = 0.0;

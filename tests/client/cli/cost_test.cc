@@ -20,6 +20,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr char kCost[] = "\"$R\" cost --a 0.3 --b 1 --mu 0.1 --energetic 1 --time-limit 500ms ";
@@ -70,6 +71,16 @@ TEST_F(CliCost, LeavingFrictionOutCostsWhatThePaperSays) {
   EXPECT_EQ(closed_form->status(), v1::CostRow::STATUS_MEASURED);
   EXPECT_LE(closed_form->achieved().total(), 2.3e-16);
   EXPECT_GT(closed_form->solve().median_s(), 0.0);
+}
+
+TEST_F(CliCost, SeveralContactsHaveTheirOwnMethods) {
+  const CliResult result =
+      RunShell("\"$R\" scene template box_on_two_feet | \"$R\" cost --contacts - --time-limit 500ms");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* text : {"3 methods for one impact", "  orders ", "  springs ", "  possible ", "2 outcomes up to"}) {
+    EXPECT_THAT(result.out, HasSubstr(text));
+  }
+  EXPECT_THAT(result.out, Not(HasSubstr("plan picks")));
 }
 
 TEST_F(CliCost, CsvHasARowForEachMethod) {

@@ -19,6 +19,7 @@
 #include "core/models/finite_duration/finite_duration.h"
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
+#include "tests/support/scenes/multi_contact_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
@@ -299,6 +300,47 @@ TEST(CostTest, EveryViolationIsReportedAtOnce) {
                                                 Violation{"time_limit_s", "= 61: must be in [0.01, 60]"},
                                                 Violation{"samples", "= 0: must be in [1, 1001]"}));
   EXPECT_FALSE(CostStudy::Make({.scene = PaperScene(), .time_limit_s = std::nan("")}).ok());
+}
+
+// Two contacts of three equal balls have W = (2, -1; -1, 2) and start at (-1, 0). By energy and v >= 0 each of their
+// velocities after lies in [0, 1]; an elastic cradle ends at (0, 1).
+TEST(CostTest, SeveralContactsHaveTheirOwnMethods) {
+  const Study study =
+      StudyOf({.time_limit_s = 30.0, .samples = 1, .multi_contact = RowOfBalls({1, 1, 1}, {1, 0, 0}, {1.0, 1.0})});
+  EXPECT_THAT(study.Names(), ElementsAre("orders", "springs", "possible"));
+  for (const CostRow& row : study.rows) {
+    EXPECT_EQ(row.status, CostStatus::kMeasured) << row.name;
+    EXPECT_GT(row.solve->median_s, 0.0) << row.name;
+    EXPECT_FALSE(row.achieved.has_value()) << row.name;
+  }
+  EXPECT_EQ(study["springs"].method.multi_contact, MultiContactMethod::kSprings);
+  EXPECT_GE(study["possible"].claimed.total, 1.0);
+  EXPECT_LE(study["possible"].claimed.total, 1.0 + 1e-9);
+  EXPECT_LE(study["orders"].claimed.numerical, 1e-14);
+  EXPECT_EQ(study["orders"].claimed.total, std::numeric_limits<double>::infinity());
+  EXPECT_THAT(study["orders"].note, HasSubstr("one outcome"));
+  EXPECT_EQ(study.summary.picks.size(), 0U);
+  EXPECT_EQ(study.summary.front.size(), 0U);
+}
+
+// Each foot that strikes first leaves at 0.5 m/s and the other at 0.05 m/s, because the block turns at 0.45 rad/s.
+TEST(CostTest, OrdersSayHowFarTheirOutcomesLieApart) {
+  const Study study =
+      StudyOf({.time_limit_s = 30.0, .samples = 1, .multi_contact = FallingBlock(/*friction=*/1.0, /*energetic=*/0.5)});
+  EXPECT_THAT(study["orders"].note, HasSubstr("2 outcomes up to 0.45 apart"));
+}
+
+TEST(CostTest, SpaceHasNoSprings) {
+  const Study study = StudyOf({.time_limit_s = 30.0, .samples = 1, .multi_contact = SpatialBox()});
+  EXPECT_THAT(study.Names(), ElementsAre("orders", "possible"));
+}
+
+TEST(CostTest, ASceneBesideSeveralContactsIsRefused) {
+  CostRequest request = {.scene = PaperScene(), .multi_contact = FallingBlock(1.0, 0.5)};
+  request.multi_contact->contacts[0].friction = -1.0;
+  EXPECT_THAT(ViolationsOf(CostStudy::Make(request).status()),
+              ElementsAre(Violation{"contacts[0].friction", "= -1: must be >= 0"},
+                          Violation{"scene", "is set: must be left out beside multi_contact"}));
 }
 
 TEST(CostTest, AStopEndsTheStudy) {

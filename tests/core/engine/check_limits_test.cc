@@ -114,6 +114,14 @@ const std::vector<Case>& Cases() {
          auto stream = solver.Cost({.scene = ChainScene(n), .time_limit_s = kLeastCostTimeLimitS});
          return stream.begin()->status();
        }},
+      {"BodiesOfAStudyOfCost", &Limits::max_links, 2, "free_bodies.bodies",
+       [](const Solver& solver, size_t n) {
+         auto stream =
+             solver.Cost({.time_limit_s = kLeastCostTimeLimitS,
+                          .multi_contact = RowOfBalls(std::vector<double>(n, 1.0), std::vector<double>(n, 0.0),
+                                                      std::vector<double>(n - 1, 0.5))});
+         return stream.begin()->status();
+       }},
       {"NumbersOfATable", &Limits::max_list_numbers, 5, "friction.by_speed.table.speed_m_s",
        [](const Solver& solver, size_t n) { return solver.Solve({.scene = WithTable(n)}).status(); }, 2},
       {"Ranges", &Limits::max_ranges, 2, "ranges",
