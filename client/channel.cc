@@ -4,6 +4,10 @@
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
 
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
 #include "absl/synchronization/mutex.h"
 #include "client/credentials.h"
 #include "client/server_address.h"
@@ -28,6 +32,17 @@ void SetUpOnce() {
   static_cast<void>(kept);
 }
 
+// An argument of every channel, of which each part of the channel has a copy. The last one goes with the last part, and
+// calls keep their channel.
+std::atomic<int64_t> parts = 0;
+void* Copied(void* counter) {
+  ++parts;
+  return counter;
+}
+void Destroyed(void* /*counter*/) { --parts; }
+int Compared(void* /*one*/, void* /*other*/) { return 0; }
+constexpr grpc_arg_pointer_vtable kPart = {.copy = Copied, .destroy = Destroyed, .cmp = Compared};
+
 }  // namespace
 
 absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const ClientOptions& options) {
@@ -44,6 +59,7 @@ absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const C
   if (!options.security.server_name.empty()) arguments.SetSslTargetNameOverride(options.security.server_name);
   // gRPC would share the connection of another Client, which after a fork may be the parent's.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  arguments.SetPointerWithVtable("ricochet.part", &parts, &kPart);
   std::vector<std::shared_ptr<grpc::Channel>> channels;
   for (const std::string& target : Targets(options)) {
     const auto credentials = MakeChannelCredentials(options.security, target);
@@ -54,6 +70,15 @@ absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const C
     channels.push_back(grpc::CreateCustomChannel(target, *credentials, own));
   }
   return channels;
+}
+
+bool AllChannelsEnd(std::chrono::milliseconds longest) {
+  const auto last = std::chrono::steady_clock::now() + longest;
+  while (parts > 0) {
+    if (std::chrono::steady_clock::now() > last) return false;
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  return true;
 }
 
 }  // namespace ricochet

@@ -5,6 +5,7 @@
 
 #include <grpcpp/channel.h>
 
+#include <chrono>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,10 @@ namespace ricochet {
 // Makes channels that connect at their first call, at least one, with the security that the options ask for.
 // Errors: INVALID_ARGUMENT for invalid options.
 absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const ClientOptions& options);
+
+// Waits until gRPC has destroyed every channel of MakeChannels, with its calls: a thread of gRPC may still be at it after
+// the last pointer to a channel is gone. Returns false if they are not destroyed within `longest`.
+bool AllChannelsEnd(std::chrono::milliseconds longest);
 
 }  // namespace ricochet
 

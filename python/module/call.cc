@@ -2,10 +2,12 @@
 
 #include <grpc/fork.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <vector>
 
 #include "absl/status/status.h"
+#include "client/channel.h"
 #include "ricochet/engine_info.h"
 
 namespace ricochet::python {
@@ -14,24 +16,28 @@ namespace {
 // These change with the lock of Python only.
 int calls_of_servers = 0;
 bool uses_grpc = false;
-bool was_calling = false;  // When the process was forked.
+bool grpc_may_fork = false;  // gRPC's handlers run at this fork.
 bool grpc_is_lost = false;
+
+// Connections are closed before a fork. gRPC takes a millisecond to destroy them.
+constexpr std::chrono::seconds kLongestClosing(2);
 
 void BeforeFork() {
   // The child must not find this half made by another thread.
   ThisEngine();
-  was_calling = calls_of_servers > 0;
-  if (uses_grpc && !was_calling) grpc_prefork();
+  // gRPC's handler waits for its threads. One that destroys a call would wait for the handler in turn, for ever.
+  grpc_may_fork = uses_grpc && calls_of_servers == 0 && AllChannelsEnd(kLongestClosing);
+  if (grpc_may_fork) grpc_prefork();
 }
 
 void AfterForkInParent() {
-  if (uses_grpc && !was_calling) grpc_postfork_parent();
+  if (grpc_may_fork) grpc_postfork_parent();
 }
 
 void AfterForkInChild() {
   calls_of_servers = 0;
-  grpc_is_lost = grpc_is_lost || was_calling;
-  if (uses_grpc && !was_calling) grpc_postfork_child();
+  grpc_is_lost = grpc_is_lost || (uses_grpc && !grpc_may_fork);
+  if (grpc_may_fork) grpc_postfork_child();
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 // stop.
 //
 // A process that is forked has no thread but the one that forked. So the child leaves every solver as it is for ever
-// and makes others. gRPC has handlers of its own for a fork, which need that no call is under way: a child that was
+// and makes others. gRPC has handlers of its own for a fork, which need that no call is under way, not even one that
+// gRPC is about to destroy: connections are closed before a fork, and opened again by the next call. A child that was
 // forked while another thread asked a server can compute, but not ask a server.
 
 #ifndef RICOCHET_PYTHON_MODULE_CALL_H_

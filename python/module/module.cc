@@ -114,9 +114,10 @@ py::object Cost(const Callee& solver, py::handle scene, const py::dict& argument
   Call call(solver);
   ForEachPart<CostStream>(call, &Solver::Cost, request, [&](const CostChunk& chunk) {
     v1::CostResponse part = ToProto(chunk);
+    // The rows before come first: the summary names rows by their places.
     part.mutable_rows()->Swap(whole.mutable_rows());
-    whole.mutable_rows()->MergeFrom(part.rows());
-    part.mutable_rows()->Swap(whole.mutable_rows());
+    part.mutable_rows()->MergeFrom(whole.rows());
+    part.set_first_row(0);
     whole.Swap(&part);
     if (!progress.is_none()) progress(chunk.rows_done, chunk.rows_total);
   });

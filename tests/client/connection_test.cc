@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
 #include <vector>
 
+#include "client/channel.h"
 #include "ricochet/client.h"
 #include "ricochet/error.h"
 #include "tests/client/cli/cli_run.h"
@@ -37,6 +39,19 @@ TEST(SecurityOptions, TokenIsNotSentUnencryptedBeyondThisHost) {
         "dns:///host:1", "ipv4:127.0.0.1:1,192.0.2.1:1", "unix:/run/ricochet.sock,host:1"}) {
     EXPECT_THAT(ViolationsOf(target, bearing), ElementsAre(Field(&Violation::field, "security.token"))) << target;
     EXPECT_THAT(ViolationsOf(target, {.tls = true, .token = "secret"}), IsEmpty()) << target;
+  }
+}
+
+TEST(Channels, AreGoneWithAllTheirCallsSoonAfterTheLastPointer) {
+  const ServerProcess server;
+  const auto calls = [&] {
+    const absl::StatusOr<Client> client = Client::Connect({.target = server.address()});
+    for (int i = 0; i < 20; ++i) EXPECT_TRUE(client->Info().ok());
+    EXPECT_FALSE(AllChannelsEnd(std::chrono::milliseconds(10)));
+  };
+  for (int i = 0; i < 20; ++i) {
+    calls();
+    EXPECT_TRUE(AllChannelsEnd(std::chrono::seconds(20)));
   }
 }
 

@@ -153,6 +153,13 @@ class Forks(unittest.TestCase):
             self.assertEqual(float(child), newton)
             self.assertEqual(client.solve(PENDULUM).coefficients.newton, newton)
 
+    def test_forks_one_after_the_other_beside_calls_that_grpc_still_destroys(self):
+        # gRPC's own handler of a fork waits for ever if a thread of gRPC destroys a call meanwhile.
+        with ricochet.Client() as client:
+            for _ in range(50):
+                regime = client.solve(PENDULUM).regime
+                self.assertEqual(self.forked(regime.encode).decode(), regime)
+
     def test_what_was_not_read_yet_is_read_in_the_child(self):
         outcome = ricochet.solve(PENDULUM)
         self.assertEqual(self.forked(lambda: repr(outcome).encode()).decode(), repr(outcome))

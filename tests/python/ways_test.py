@@ -111,6 +111,17 @@ class Ways(unittest.TestCase):
                                for client in (self.here, self.there))
                 self.assertEqual(here, there)
 
+    def test_the_rows_of_a_study_stand_where_its_summary_says(self):
+        for client in (self.here, self.there):
+            study = client.cost(PENDULUM, time_limit_s=60, samples=1)
+            names = {pick.model: study.rows[pick.row].name for pick in study.summary.picks}
+            self.assertEqual(set(names), {"PENDULUM"})
+            self.assertTrue(all(name.startswith("closed form") for name in names.values()), names)
+            self.assertEqual(study.rows[0].name, "frictionless")
+            times = [study.rows[row].solve.median_s for row in study.summary.front]
+            self.assertEqual(times, sorted(times))
+            self.assertEqual((study.first_row, study.rows_done), (0, len(study.rows)))
+
     def test_studies_of_cost_have_the_same_methods_and_errors(self):
         # The times differ, and what has no time left depends on them: there is several times as much as it takes.
         here, there = (client.cost(PENDULUM, time_limit_s=60, samples=1).rows for client in (self.here, self.there))
