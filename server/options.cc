@@ -195,7 +195,7 @@ std::vector<Setting> CallSettings() {
       {"max-threads", "N", absl::StrCat("Threads [max-live-calls + ", Options::kSpareThreads, "]"),
        [](const std::string& text, Options& to) { return ReadInteger(text, 1 << 20, to.max_threads); }},
       {"compute-threads", "N",
-       "Expensive calls that compute at once, and as many parts of streams [the number of cores]",
+       "Expensive calls that compute at once, and as many parts of streams [the cores that it may use]",
        [](const std::string& text, Options& to) { return ReadInteger(text, 1024, to.compute_threads); }},
       {"max-waiting-calls", "N", "Expensive calls that may wait to compute; more are refused [256]",
        [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.max_waiting_calls); }},

@@ -19,6 +19,7 @@
 #include "absl/status/statusor.h"
 #include "ricochet/limits.h"
 #include "server/admission/live_calls.h"
+#include "server/base/cpu_quota.h"
 #include "server/base/listen_address.h"
 #include "server/base/log.h"
 #include "server/calls/call.h"
@@ -47,12 +48,12 @@ struct Options {
   // Threads that wait for calls or tell callers that they are refused. With this many spare threads an overload is
   // refused by the limit of live calls, which sends a retry delay, and not by gRPC.
   static constexpr int kSpareThreads = 128;
-  LiveCallLimits live_calls = LiveCallLimitsFor(1024);  // Each limit from 1 to 65,536.
-  int max_threads = 1024 + kSpareThreads;               // At least live_calls.calls + kSpareThreads.
-  int compute_threads = AvailableCores();               // 1 to 1024.
-  int max_waiting_calls = 256;                          // Expensive unary calls that wait to compute; 1 to 65,536.
-  TimeLimits time_limits;                               // 1 ms to 1 h.
-  std::chrono::milliseconds unread_limit{30'000};       // 1 ms to 1 h.
+  LiveCallLimits live_calls = LiveCallLimitsFor(1024);       // Each limit from 1 to 65,536.
+  int max_threads = 1024 + kSpareThreads;                    // At least live_calls.calls + kSpareThreads.
+  int compute_threads = CoresWithinQuota(AvailableCores());  // 1 to 1024.
+  int max_waiting_calls = 256;                               // Expensive unary calls that wait to compute; 1 to 65,536.
+  TimeLimits time_limits;                                    // 1 ms to 1 h.
+  std::chrono::milliseconds unread_limit{30'000};            // 1 ms to 1 h.
 
   Limits limits;  // How large a request may be: one option for each of kLimits.
 

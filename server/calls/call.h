@@ -26,7 +26,7 @@
 
 namespace ricochet::server {
 
-// How long a call may run, whatever its client allows; both > 0.
+// Says how long a call may run, whatever its client allows; both > 0.
 struct TimeLimits {
   std::chrono::milliseconds unary_time{60'000};
   std::chrono::milliseconds stream_age{3'600'000};
