@@ -1,4 +1,4 @@
-// Which numbers of an outcome have derivatives, and by which numbers of the scene.
+// Says which numbers of an outcome have derivatives, and by which numbers of the scene.
 
 #ifndef RICOCHET_CORE_ANSWER_DERIVATIVE_PATHS_H_
 #define RICOCHET_CORE_ANSWER_DERIVATIVE_PATHS_H_

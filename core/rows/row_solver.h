@@ -35,7 +35,7 @@
 
 namespace ricochet {
 
-// Where the results of rows go.
+// Says where the results of rows go.
 struct RowSink {
   std::vector<double*> columns;             // The place of the first row's value in each column.
   absl::Span<Regime> regimes;               // Empty, or receives the regime of each row.

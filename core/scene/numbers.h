@@ -158,7 +158,7 @@ inline constexpr auto kSceneNumbers = std::tuple{
     SceneNumber("point_m", &MultiContactPoint::point_m),
     SceneNumber("normal", &MultiContactPoint::normal)};
 
-// How many numbers of the table a part has.
+// Says how many numbers of the table a part has.
 template <typename Part>
 inline constexpr size_t kNumbersOf = std::apply(
     [](const auto&... number) {

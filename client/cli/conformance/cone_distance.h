@@ -1,4 +1,4 @@
-// How far a change of velocity lies from all that impulses within the friction cones can cause.
+// Says how far a change of velocity lies from all that impulses within the friction cones can cause.
 
 #ifndef RICOCHET_CLIENT_CLI_CONFORMANCE_CONE_DISTANCE_H_
 #define RICOCHET_CLIENT_CLI_CONFORMANCE_CONE_DISTANCE_H_

@@ -23,7 +23,7 @@ absl::StatusOr<std::string> FullName(const std::string& name, const std::vector<
 // Returns the full path of the field of the scene that `name` means. Errors: those of FullName.
 absl::StatusOr<std::string> FullField(const Scene& scene, const std::string& name, const std::string& what);
 
-// How the number at the path of a field may be written.
+// Says how the number at the path of a field may be written.
 Spelling SpellingOf(const std::string& path);
 
 // Returns the columns of the scene that `names`, the values of --column, mean; "coefficients.*" means all that start

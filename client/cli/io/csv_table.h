@@ -27,7 +27,7 @@ struct BadCells {
   std::string Reason() const { return column.empty() ? description : column + " " + description; }
 };
 
-// How the cells of a column are read.
+// Says how the cells of a column are read.
 enum class CellKind { kNumber, kAngle, kSkipped };
 
 struct CsvTable {

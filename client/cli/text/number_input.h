@@ -11,7 +11,7 @@
 
 namespace ricochet::cli {
 
-// How a number may be written: "0.1", "-1e-3", or a fraction of two such numbers, "1/3". An angle may also be given in
+// Says how a number may be written: "0.1", "-1e-3", or a fraction of two such numbers, "1/3". An angle may also be given in
 // degrees, "45deg" or "180/7deg", which become the radians nearest to them.
 enum class Spelling { kNumber, kAngle };
 

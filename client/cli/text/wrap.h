@@ -13,7 +13,7 @@ namespace ricochet::cli {
 // Counts characters of UTF-8, not bytes.
 size_t Characters(absl::string_view text);
 
-// Whether the words of a unit, such as "[N s]", stay together.
+// Says whether the words of a unit, such as "[N s]", stay together.
 enum class Units { kBroken, kKept };
 
 // Returns the text in lines of at most `width` characters, all but the first indented by `indent` spaces; the first

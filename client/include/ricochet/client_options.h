@@ -14,7 +14,7 @@
 
 namespace ricochet {
 
-// How a call is repeated that failed with UNAVAILABLE, with RESOURCE_EXHAUSTED and a time after which to retry, or with
+// Says how a call is repeated that failed with UNAVAILABLE, with RESOURCE_EXHAUSTED and a time after which to retry, or with
 // a CANCELLED that the caller did not ask for. The wait before attempt n is random between 0 and min(initial_backoff *
 // multiplier^(n-2), max_backoff), and at least the time that the server asked for; if that is more than a minute, the
 // call fails instead.
@@ -29,7 +29,7 @@ struct RetryPolicy {
   double multiplier = 2.0;                         // >= 1.
 };
 
-// How all servers of a list compute one sweep together: each a range of points at a time, the faster ones longer
+// Says how all servers of a list compute one sweep together: each a range of points at a time, the faster ones longer
 // ranges. A server that fails is left alone for a while and its range goes to another one. The sweep fails once every
 // server of the list has failed in a row as often as RetryPolicy allows.
 struct FanOut {
@@ -44,7 +44,7 @@ struct FanOut {
 // gRPC counts the bytes of a message in 32 bits.
 inline constexpr int64_t kMostReceiveBytes = (int64_t{1} << 31) - 1;
 
-// How a Client reaches its server. Only `target` is required.
+// Says how a Client reaches its server. Only `target` is required.
 struct ClientOptions {
   // "host:port" or another gRPC target, such as "unix:PATH". Required. A list, separated by commas, names servers that
   // stand in for each other: calls go to the first; where it fails, they and those after them go to the next.

@@ -52,7 +52,7 @@ enum class Threshold {
 };
 inline constexpr int kThresholdCount = 11;
 
-// Where the impact takes another course, so that a derivative holds no longer.
+// Says where the impact takes another course, so that a derivative holds no longer.
 struct NearThreshold {
   Threshold threshold = Threshold::kUnspecified;
   // How far the number of the scene may move before it, >= 0, in the unit of that number and to its last digits.

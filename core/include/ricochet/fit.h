@@ -80,7 +80,7 @@ struct FitRequest {
   friend bool operator==(const FitRequest&, const FitRequest&) = default;
 };
 
-// How an interval ends. The numbers are those of ricochet.v1.FitEnd.Kind.
+// Says how an interval ends. The numbers are those of ricochet.v1.FitEnd.Kind.
 enum class FitEndKind {
   kUnspecified = 0,
   kFound = 1,       // The data end it here.

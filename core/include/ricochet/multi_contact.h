@@ -116,7 +116,7 @@ struct MultiContactRequest {
   friend bool operator==(const MultiContactRequest&, const MultiContactRequest&) = default;
 };
 
-// How a sequence of impacts, or the motion on springs, ended. The numbers are those of ricochet.v1.MultiContactEnd.
+// Says how a sequence of impacts, or the motion on springs, ended. The numbers are those of ricochet.v1.MultiContactEnd.
 enum class MultiContactEnd {
   kUnspecified = 0,
   kSeparated = 1,        // No contact approaches any more.
@@ -163,7 +163,7 @@ struct AttainedOutcome {
   friend bool operator==(const AttainedOutcome&, const AttainedOutcome&) = default;
 };
 
-// How two contacts are coupled: cosine = -W_n1n2/sqrt(W_n1n1 W_n2n2), the cosine of an angle theta.
+// Says how two contacts are coupled: cosine = -W_n1n2/sqrt(W_n1n1 W_n2n2), the cosine of an angle theta.
 struct ContactPair {
   int32_t contact_1 = 0, contact_2 = 0;
   double cosine = 0.0;
@@ -190,14 +190,14 @@ struct StiffnessSample {
   friend bool operator==(const StiffnessSample&, const StiffnessSample&) = default;
 };
 
-// Where the outcome of springs jumps, or changes more steeply than samples resolve: between two neighbouring samples.
+// Says where the outcome of springs jumps, or changes more steeply than samples resolve: between two neighbouring samples.
 struct StiffnessJump {
   double low = 0.0, high = 0.0;  // Relative stiffnesses.
   double difference = 0.0;       // The largest change of an output, over its scale (see Verdict).
   friend bool operator==(const StiffnessJump&, const StiffnessJump&) = default;
 };
 
-// Whether the order of impacts matters. The numbers are those of ricochet.v1.MultiContactVerdict.
+// Says whether the order of impacts matters. The numbers are those of ricochet.v1.MultiContactVerdict.
 enum class MultiContactVerdict {
   kUnspecified = 0,               // Not decided: no two outcomes differ, but some could not be found.
   kSingle = 1,                    // Proved: only one outcome is possible.

@@ -116,7 +116,7 @@ struct BodyVelocity {
   friend bool operator==(const BodyVelocity&, const BodyVelocity&) = default;
 };
 
-// How the computation of an impact ended. The numbers are those of ricochet.v1.Termination.
+// Says how the computation of an impact ended. The numbers are those of ricochet.v1.Termination.
 enum class Termination {
   kUnspecified = 0,
   kConverged = 1,  // The impact was followed to its end, with a stated error within the tolerance if that is above 0.

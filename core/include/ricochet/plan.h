@@ -120,7 +120,7 @@ constexpr bool IsLinearBetweenEvents(Model model) {
   return true;
 }
 
-// How the rounding errors of an impact are kept small. The numbers are those of ricochet.v1.Arithmetic.
+// Says how the rounding errors of an impact are kept small. The numbers are those of ricochet.v1.Arithmetic.
 enum class Arithmetic {
   kUnspecified = 0,
   kPlain = 1,  // Doubles, with a proved bound on the rounding error; no sign is taken that rounding may have changed.
