@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -42,7 +43,7 @@ void AfterForkInChild() {
 
 }  // namespace
 
-Call::Call(const Callee& callee) : callee_(callee) {
+Call::Call(Callee callee) : callee_(std::move(callee)) {
   if (callee_.deadline.has_value()) options_.deadline = Clock::now() + *callee_.deadline;
   if (callee_.is_remote) {
     ++calls_of_servers;

@@ -49,7 +49,7 @@ void AddForks(py::module_& module);
 
 class Call {
  public:
-  explicit Call(const Callee& callee);
+  explicit Call(Callee callee);
   ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
