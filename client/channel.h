@@ -18,8 +18,8 @@ namespace ricochet {
 // Errors: INVALID_ARGUMENT for invalid options.
 absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const ClientOptions& options);
 
-// Waits until gRPC has destroyed every channel of MakeChannels, with its calls: a thread of gRPC may still be at it after
-// the last pointer to a channel is gone. Returns false if they are not destroyed within `longest`.
+// Waits until gRPC has destroyed every channel of MakeChannels, with its calls: a thread of gRPC may still be at it
+// after the last pointer to a channel is gone. Returns false if they are not destroyed within `longest`.
 bool AllChannelsEnd(std::chrono::milliseconds longest);
 
 }  // namespace ricochet

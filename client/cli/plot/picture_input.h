@@ -15,7 +15,8 @@ class App;
 
 namespace ricochet::cli {
 
-// Says how a sweep is drawn. kAuto: a whole grid of two axes that both have many values is a map, any other sweep is curves.
+// Says how a sweep is drawn. kAuto: a whole grid of two axes that both have many values is a map, any other sweep is
+// curves.
 enum class PlotKind { kAuto, kCurves, kMap };
 
 struct PictureOptions {

@@ -11,8 +11,8 @@
 
 namespace ricochet::cli {
 
-// Says how a number may be written: "0.1", "-1e-3", or a fraction of two such numbers, "1/3". An angle may also be given in
-// degrees, "45deg" or "180/7deg", which become the radians nearest to them.
+// Says how a number may be written: "0.1", "-1e-3", or a fraction of two such numbers, "1/3". An angle may also be
+// given in degrees, "45deg" or "180/7deg", which become the radians nearest to them.
 enum class Spelling { kNumber, kAngle };
 
 // Reads a number into `value`. Returns the rule that the text breaks, such as "be a number such as 0.1"; empty if it

@@ -14,10 +14,10 @@
 
 namespace ricochet {
 
-// Says how a call is repeated that failed with UNAVAILABLE, with RESOURCE_EXHAUSTED and a time after which to retry, or with
-// a CANCELLED that the caller did not ask for. The wait before attempt n is random between 0 and min(initial_backoff *
-// multiplier^(n-2), max_backoff), and at least the time that the server asked for; if that is more than a minute, the
-// call fails instead.
+// Says how a call is repeated that failed with UNAVAILABLE, with RESOURCE_EXHAUSTED and a time after which to retry, or
+// with a CANCELLED that the caller did not ask for. The wait before attempt n is random between 0 and
+// min(initial_backoff * multiplier^(n-2), max_backoff), and at least the time that the server asked for; if that is
+// more than a minute, the call fails instead.
 struct RetryPolicy {
   // In [1, 5], including the first attempt, for each server; 1 means no retry.
   int max_attempts = 3;
