@@ -20,8 +20,8 @@ struct InfoRequest {
   friend bool operator==(const InfoRequest&, const InfoRequest&) = default;
 };
 
-// Says how many calls and connections a server takes at once, how long they may take, and how large their messages may be.
-// Each is >= 1.
+// Says how many calls and connections a server takes at once, how long they may take, and how large their messages may
+// be. Each is >= 1.
 struct ServerLimits {
   int64_t max_message_bytes = 1;
   int64_t max_metadata_bytes = 1;

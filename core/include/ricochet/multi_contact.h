@@ -116,7 +116,8 @@ struct MultiContactRequest {
   friend bool operator==(const MultiContactRequest&, const MultiContactRequest&) = default;
 };
 
-// Says how a sequence of impacts, or the motion on springs, ended. The numbers are those of ricochet.v1.MultiContactEnd.
+// Says how a sequence of impacts, or the motion on springs, ended. The numbers are those of
+// ricochet.v1.MultiContactEnd.
 enum class MultiContactEnd {
   kUnspecified = 0,
   kSeparated = 1,        // No contact approaches any more.
@@ -190,7 +191,8 @@ struct StiffnessSample {
   friend bool operator==(const StiffnessSample&, const StiffnessSample&) = default;
 };
 
-// Says where the outcome of springs jumps, or changes more steeply than samples resolve: between two neighbouring samples.
+// Says where the outcome of springs jumps, or changes more steeply than samples resolve: between two neighbouring
+// samples.
 struct StiffnessJump {
   double low = 0.0, high = 0.0;  // Relative stiffnesses.
   double difference = 0.0;       // The largest change of an output, over its scale (see Verdict).
