@@ -57,7 +57,7 @@ absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const C
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstReconnectMs);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestReconnectMs);
   if (!options.security.server_name.empty()) arguments.SetSslTargetNameOverride(options.security.server_name);
-  // gRPC would share the connection of another Client, which after a fork may be the parent's.
+  // gRPC would share the connection of another Client, which must end with that.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   arguments.SetPointerWithVtable("ricochet.part", &parts, &kPart);
   std::vector<std::shared_ptr<grpc::Channel>> channels;

@@ -1,6 +1,8 @@
 #include "client/cost_reader.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "proto/wire/cost.h"
@@ -43,6 +45,25 @@ absl::Status CostChecker::Check(const CostChunk& chunk) {
   const bool within = AllWithin(chunk.summary->front, 0, rows_, [](int64_t row) { return row; }) &&
                       AllWithin(chunk.summary->picks, -1, rows_, [](const CostPick& pick) { return pick.row; });
   return within ? absl::OkStatus() : absl::DataLossError("the study's summary names a row that it does not have");
+}
+
+void AddPart(CostChunk part, CostChunk& study) {
+  std::move(part.rows.begin(), part.rows.end(), std::back_inserter(study.rows));
+  study.rows_done = part.rows_done;
+  study.rows_total = part.rows_total;
+  study.summary = std::move(part.summary);
+  study.engine = std::move(part.engine);
+}
+
+absl::StatusOr<CostChunk> WholeStudy(CostStream parts, const std::function<void(const CostChunk&)>& see) {
+  CostChunk whole;
+  for (absl::StatusOr<CostChunk>& part : parts) {
+    if (!part.ok()) return part.status();
+    see(*part);
+    AddPart(*std::move(part), whole);
+  }
+  if (!whole.summary.has_value()) return absl::DataLossError("the study ended without a summary");
+  return whole;
 }
 
 absl::Status CostChecker::CheckEnd() const {

@@ -4,11 +4,13 @@
 #define RICOCHET_CLIENT_COST_READER_H_
 
 #include <cstdint>
+#include <functional>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/stream_reader.h"
 #include "ricochet/cost.h"
+#include "ricochet/solver.h"
 #include "ricochet/v1/cost.pb.h"
 
 namespace ricochet {
@@ -26,6 +28,13 @@ class CostChecker {
   int64_t rows_ = 0;
   bool summarised_ = false;
 };
+
+// Adds a part to the study that the parts before it make: its rows come last, because the summary names rows by place.
+void AddPart(CostChunk part, CostChunk& study);
+
+// Returns the parts of a study as one, and shows each to `see` before. Errors: those of the parts, and DATA_LOSS where
+// the last has no summary.
+absl::StatusOr<CostChunk> WholeStudy(CostStream parts, const std::function<void(const CostChunk&)>& see);
 
 using CostReader = StreamReader<v1::CostResponse, CostChunk, CostChecker>;
 

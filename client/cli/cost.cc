@@ -21,6 +21,7 @@
 #include "client/cli/terminal/interrupt.h"
 #include "client/cli/terminal/progress.h"
 #include "client/cli/text/number_input.h"
+#include "client/cost_reader.h"
 #include "proto/wire/multi_contact.h"
 
 namespace ricochet::cli {

@@ -13,6 +13,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
 #include "absl/synchronization/mutex.h"
+#include "client/cost_reader.h"
 #include "core/base/invariant.h"
 #include "proto/wire/info.h"
 #include "python/module/call.h"
@@ -110,18 +111,13 @@ py::object Answer(const Callee& solver, py::handle scene, const py::dict& argume
 // Answers with one message that has all rows.
 py::object Cost(const Callee& solver, py::handle scene, const py::dict& arguments, const py::object& progress) {
   const auto request = RequestOf<v1::CostRequest>(scene, arguments);
-  v1::CostResponse whole;
+  CostChunk whole;
   Call call(solver);
   ForEachPart<CostStream>(call, &Solver::Cost, request, [&](const CostChunk& chunk) {
-    v1::CostResponse part = ToProto(chunk);
-    // The rows before come first: the summary names rows by their places.
-    part.mutable_rows()->Swap(whole.mutable_rows());
-    part.mutable_rows()->MergeFrom(whole.rows());
-    part.set_first_row(0);
-    whole.Swap(&part);
+    AddPart(chunk, whole);
     if (!progress.is_none()) progress(chunk.rows_done, chunk.rows_total);
   });
-  return RecordOf(whole);
+  return RecordOf(ToProto(whole));
 }
 
 py::list NamesOfEnum(const std::string& name) {

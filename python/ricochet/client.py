@@ -133,7 +133,7 @@ class Client:
                 self._made = None
 
     def _leave_to_parent(self) -> None:
-        """In a forked process: leaves the threads and connections of the solver to the parent, whose they are."""
+        """In a forked process: leaves the threads of the solver to the parent, whose they are."""
         if self._made is not None:
             self._made.abandon()
         self._start()

@@ -132,21 +132,6 @@ CsvRow CsvRowOf(const CostChunk& study, size_t index, bool on_front) {
 
 }  // namespace
 
-absl::StatusOr<CostChunk> WholeStudy(CostStream parts, const std::function<void(const CostChunk&)>& see) {
-  CostChunk whole;
-  for (absl::StatusOr<CostChunk>& part : parts) {
-    if (!part.ok()) return part.status();
-    see(*part);
-    for (CostRow& row : part->rows) whole.rows.push_back(std::move(row));
-    whole.rows_done = part->rows_done;
-    whole.rows_total = part->rows_total;
-    whole.summary = std::move(part->summary);
-    whole.engine = std::move(part->engine);
-  }
-  if (!whole.summary.has_value()) return absl::DataLossError("the study ended without a summary");
-  return whole;
-}
-
 std::string TimeText(double seconds) {
   struct Unit {
     const char* name;

@@ -4,19 +4,12 @@
 #define RICOCHET_CLIENT_CLI_REPORT_COST_REPORT_H_
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "absl/status/statusor.h"
 #include "ricochet/cost.h"
-#include "ricochet/solver.h"
 
 namespace ricochet::cli {
-
-// Returns the parts of a study as one, and shows each to `see` before. Errors: those of the parts, and DATA_LOSS where
-// the last has no summary.
-absl::StatusOr<CostChunk> WholeStudy(CostStream parts, const std::function<void(const CostChunk&)>& see);
 
 // The functions below take a whole study: all rows in one CostChunk, with its summary.
 
