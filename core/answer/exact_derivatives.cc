@@ -65,8 +65,15 @@ const PlanarReduction& ExactDerivatives::ReductionOf(const Side& side) const {
   return std::get<PlanarReduction>(ContactOf(side).reduction);
 }
 
-void ExactDerivatives::AddImpact(const Number& number, Side& side) {
-  side.contact_tangent = TangentOf(number.scene, ContactOf(side), number.direction);
+void ExactDerivatives::AddImpact(const Number& number, const ContactTangents& tangents_here, Side& side) {
+  const Side& below = number.below;  // It is set before the side above.
+  if (side.own_contact.has_value()) {
+    side.contact_tangent = ContactTangents(number.scene, *side.own_contact).Along(number.direction);
+  } else if (&side != &below && below.exists && below.contact_tangent.is_linear) {
+    side.contact_tangent = -below.contact_tangent;
+  } else {
+    side.contact_tangent = tangents_here.Along(number.direction);
+  }
   const ContactTangent& d = side.contact_tangent;
   side.impact = impacts_.size();
   impacts_.push_back({.problem = ProblemOf(number.scene, ContactOf(side)),
@@ -84,6 +91,7 @@ void ExactDerivatives::Compute(const Scene& scene) {
   const planar::Problem problem = ProblemOf(scene, *here_);
   speed_here_ = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
   values_here_ = planar::NumbersOf(planar::Solve(problem), 0.0);
+  const ContactTangents tangents_here(scene, *here_);
   for (Number& number : numbers_) {
     if (number.is_stated) {
       number.scene = scene;  // Its numbers stay in their places, to which `field` points.
@@ -91,13 +99,13 @@ void ExactDerivatives::Compute(const Scene& scene) {
       number.scene = Stating(number.path, scene);
       number.field = FieldIn(number.scene, number.path);
     }
-    SetSide(number, -1.0, number.below);
-    SetSide(number, 1.0, number.above);
+    SetSide(number, tangents_here, -1.0, number.below);
+    SetSide(number, tangents_here, 1.0, number.above);
   }
   planar::SetTangents(absl::MakeSpan(impacts_));
 }
 
-void ExactDerivatives::SetSide(Number& number, double sign, Side& side) {
+void ExactDerivatives::SetSide(Number& number, const ContactTangents& tangents_here, double sign, Side& side) {
   side.exists = true;
   side.step = sign;
   side.own_contact.reset();
@@ -107,7 +115,7 @@ void ExactDerivatives::SetSide(Number& number, double sign, Side& side) {
     auto& change = std::get<Pendulum>(number.direction.system);
     change.a_m = sign * pendulum.b_m;
     change.b_m = -sign * pendulum.a_m;
-    return AddImpact(number, side);
+    return AddImpact(number, tangents_here, side);
   }
   const double value = number.field.value();
   const double size = value == 0.0 ? kBeside : std::fabs(value);
@@ -118,7 +126,7 @@ void ExactDerivatives::SetSide(Number& number, double sign, Side& side) {
   if (side.exists) {
     if (value == 0.0 || !number.is_stated) side.own_contact.emplace(number.scene);
     number.along.Set(side.step);
-    AddImpact(number, side);
+    AddImpact(number, tangents_here, side);
   }
   number.field.Set(value);
 }

@@ -60,8 +60,9 @@ class ExactDerivatives {
     Side below, above;
   };
 
-  void SetSide(Number& number, double sign, Side& side);
-  void AddImpact(const Number& number, Side& side);
+  // The tangents are those of the contact here.
+  void SetSide(Number& number, const ContactTangents& tangents_here, double sign, Side& side);
+  void AddImpact(const Number& number, const ContactTangents& tangents_here, Side& side);
   const SceneContact& ContactOf(const Side& side) const;
   const PlanarReduction& ReductionOf(const Side& side) const;
   bool LosesRank(const Side& side) const;

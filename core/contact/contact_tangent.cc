@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <variant>
 
 #include "core/base/invariant.h"
@@ -72,69 +74,44 @@ VectorXd RatesOf(const Linkage& linkage) {
   return rates;
 }
 
+Motion MotionOf(const Linkage& linkage, double /*one*/) {
+  Motion motion(static_cast<Index>(linkage.links.size()));
+  motion.mass = MassMatrix(linkage);
+  motion.jt = TransposedJacobian(linkage);
+  motion.rates = RatesOf(linkage);
+  return motion;
+}
+
+template <typename OtherSystem>
+Motion MotionOf(const OtherSystem& /*system*/, double /*one*/) {
+  CheckInvariant(false, "the motion of a contact is asked of a planar system of bodies");
+  return Motion(0);
+}
+
+Motion MotionOf(const System& system) {
+  return std::visit([](const auto& its_system) { return MotionOf(its_system, 1.0); }, system);
+}
+
+// Returns the derivatives of MotionOf(system) along a direction. Those of a linkage also depend on the linkage.
+Motion MotionTangent(const System& system, const System& direction) {
+  const auto* const linkage = std::get_if<Linkage>(&system);
+  if (linkage == nullptr) {
+    return std::visit([](const auto& its_direction) { return MotionOf(its_direction, 0.0); }, direction);
+  }
+  const auto& d = std::get<Linkage>(direction);
+  Motion motion(static_cast<Index>(linkage->links.size()));
+  motion.mass = MassMatrixTangent(*linkage, d);
+  motion.jt = TransposedJacobianTangent(*linkage, d);
+  motion.rates = RatesOf(d);
+  return motion;
+}
+
 std::vector<Index> FreeCoordinatesOf(const System& system, Index n) {
   if (const auto* const mechanism = std::get_if<Mechanism>(&system)) return FreeCoordinates(*mechanism);
   std::vector<Index> all;
   for (Index i = 0; i < n; ++i) all.push_back(i);
   return all;
 }
-
-// Sets what follows from M, J^T and q' of the system and from their derivatives.
-void SetMotion(const System& system, const Motion& motion, const Motion& d, ContactTangent& tangent) {
-  const VectorXd d_velocity = d.jt.transpose() * motion.rates + motion.jt.transpose() * d.rates;
-  tangent.u0 = d_velocity(0);
-  tangent.v0 = d_velocity(1);
-  tangent.before.assign(d.rates.begin(), d.rates.end());
-  tangent.response.resize(static_cast<size_t>(2 * d.rates.size()));
-  const std::vector<Index> free = FreeCoordinatesOf(system, motion.rates.size());
-  tangent.keeps_rank_one = free.size() == 1;
-  if (free.empty()) return;  // No impulse moves anything.
-  const MatrixXd d_mass = d.mass(free, free);
-  const MatrixXd d_jt = d.jt(free, Eigen::all);
-  const Eigen::LLT<MatrixXd> cholesky(motion.mass(free, free));
-  const MatrixXd x = cholesky.solve(motion.jt(free, Eigen::all));
-  const MatrixXd d_x = cholesky.solve(d_jt - d_mass * x);
-  const MatrixXd d_w = d_jt.transpose() * x + x.transpose() * d_jt - x.transpose() * d_mass * x;
-  tangent.w = {d_w(0, 0), d_w(0, 1), d_w(1, 1)};
-  for (size_t i = 0; i < free.size(); ++i) {
-    for (Index j = 0; j < 2; ++j) {
-      tangent.response[static_cast<size_t>(2 * free[i] + j)] = d_x(static_cast<Index>(i), j);
-    }
-  }
-}
-
-// Sets the part of the system: all but the velocity of the surface, friction and restitution.
-struct SystemTangent {
-  const System& direction;
-  ContactTangent& tangent;
-
-  template <typename SomeSystem>
-  void operator()(const SomeSystem& system) const {
-    SetMotion(system, MotionOf(system, 1.0), MotionOf(std::get<SomeSystem>(direction), 0.0), tangent);
-  }
-  void operator()(const Linkage& linkage) const {
-    const auto& d = std::get<Linkage>(direction);
-    Motion motion(static_cast<Index>(linkage.links.size()));
-    Motion d_motion = motion;
-    motion.mass = MassMatrix(linkage);
-    motion.jt = TransposedJacobian(linkage);
-    motion.rates = RatesOf(linkage);
-    d_motion.mass = MassMatrixTangent(linkage, d);
-    d_motion.jt = TransposedJacobianTangent(linkage, d);
-    d_motion.rates = RatesOf(d);
-    SetMotion(linkage, motion, d_motion, tangent);
-  }
-  void operator()(const PlanarContact& /*contact*/) const {
-    const auto& d = std::get<PlanarContact>(direction);
-    tangent.w = {d.w_tt_per_kg, d.w_tn_per_kg, d.w_nn_per_kg};
-    tangent.u0 = d.tangential_m_s;
-    tangent.v0 = d.normal_m_s;
-  }
-  void operator()(std::monostate /*unset*/) const { Refuse(); }
-  void operator()(const SpatialBody& /*body*/) const { Refuse(); }
-  void operator()(const SpatialContact& /*contact*/) const { Refuse(); }
-  static void Refuse() { CheckInvariant(false, "the tangent of a contact is asked of a planar system"); }
-};
 
 // --- Coefficients by speed ---
 
@@ -201,20 +178,85 @@ void SetCoefficients(const Scene& scene, const SceneContact& contact, const Scen
   tangent.restitution = CoefficientOf(d.restitution) * FactorAt(scene.restitution_by_speed, speed) +
                         CoefficientOf(scene.restitution) *
                             FactorTangent(scene.restitution_by_speed, d.restitution_by_speed, speed, d_speed);
+  // The approach speed, which is never negative, changes linearly where it is positive.
+  const bool depends_on_speed = scene.friction.by_speed.has_value() || scene.restitution_by_speed.has_value();
   tangent.is_at_speed_of_table = Lists(scene.friction.by_speed, speed) || Lists(scene.restitution_by_speed, speed);
+  tangent.is_linear = !depends_on_speed || (speed > 0.0 && !tangent.is_at_speed_of_table);
 }
 
 }  // namespace
 
-ContactTangent TangentOf(const Scene& scene, const SceneContact& contact, const Scene& direction) {
+struct ContactTangents::Bodies {
+  explicit Bodies(const System& system)
+      : motion(MotionOf(system)), free(FreeCoordinatesOf(system, motion.rates.size())) {
+    if (free.empty()) return;
+    cholesky.compute(motion.mass(free, free));
+    response = cholesky.solve(motion.jt(free, Eigen::all));
+  }
+
+  // Sets what follows from the derivatives of M, J^T and q'.
+  void SetTangent(const Motion& d, ContactTangent& tangent) const {
+    const VectorXd d_velocity = d.jt.transpose() * motion.rates + motion.jt.transpose() * d.rates;
+    tangent.u0 = d_velocity(0);
+    tangent.v0 = d_velocity(1);
+    tangent.before.assign(d.rates.begin(), d.rates.end());
+    tangent.response.resize(static_cast<size_t>(2 * d.rates.size()));
+    tangent.keeps_rank_one = free.size() == 1;
+    if (free.empty()) return;  // No impulse moves anything.
+    const MatrixXd d_mass = d.mass(free, free);
+    const MatrixXd d_jt = d.jt(free, Eigen::all);
+    const MatrixXd& x = response;
+    const MatrixXd d_x = cholesky.solve(d_jt - d_mass * x);
+    const MatrixXd d_w = d_jt.transpose() * x + x.transpose() * d_jt - x.transpose() * d_mass * x;
+    tangent.w = {d_w(0, 0), d_w(0, 1), d_w(1, 1)};
+    for (size_t i = 0; i < free.size(); ++i) {
+      for (Index j = 0; j < 2; ++j) {
+        tangent.response[static_cast<size_t>(2 * free[i] + j)] = d_x(static_cast<Index>(i), j);
+      }
+    }
+  }
+
+  Motion motion;
+  std::vector<Index> free;
+  // These belong to the free coordinates and are unset if there are none.
+  Eigen::LLT<MatrixXd> cholesky;
+  MatrixXd response;
+};
+
+ContactTangent operator-(ContactTangent tangent) {
+  const auto reverse = [](double& number) { number = -number; };
+  tangent.w = {-tangent.w.tt, -tangent.w.tn, -tangent.w.nn};
+  for (double* const number :
+       {&tangent.u0, &tangent.v0, &tangent.kinetic_friction, &tangent.static_friction, &tangent.restitution}) {
+    reverse(*number);
+  }
+  std::for_each(tangent.before.begin(), tangent.before.end(), reverse);
+  std::for_each(tangent.response.begin(), tangent.response.end(), reverse);
+  return tangent;
+}
+
+ContactTangents::ContactTangents(const Scene& scene, const SceneContact& contact) : scene_(scene), contact_(contact) {
+  if (!std::holds_alternative<PlanarContact>(scene.system)) bodies_ = std::make_unique<const Bodies>(scene.system);
+}
+
+ContactTangents::~ContactTangents() = default;
+
+ContactTangent ContactTangents::Along(const Scene& direction) const {
   ContactTangent tangent;
-  std::visit(SystemTangent{direction.system, tangent}, scene.system);
-  if (scene.surface_velocity.has_value()) {
+  if (bodies_ != nullptr) {
+    bodies_->SetTangent(MotionTangent(scene_.system, direction.system), tangent);
+  } else {
+    const auto& d = std::get<PlanarContact>(direction.system);
+    tangent.w = {d.w_tt_per_kg, d.w_tn_per_kg, d.w_nn_per_kg};
+    tangent.u0 = d.tangential_m_s;
+    tangent.v0 = d.normal_m_s;
+  }
+  if (scene_.surface_velocity.has_value()) {
     const SurfaceVelocity& d = *direction.surface_velocity;
     if (!d.tangential_m_s.empty()) tangent.u0 -= d.tangential_m_s[0];
     tangent.v0 -= d.normal_m_s;
   }
-  SetCoefficients(scene, contact, direction, tangent);
+  SetCoefficients(scene_, contact_, direction, tangent);
   return tangent;
 }
 

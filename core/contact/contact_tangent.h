@@ -13,6 +13,7 @@
 #ifndef RICOCHET_CORE_CONTACT_CONTACT_TANGENT_H_
 #define RICOCHET_CORE_CONTACT_CONTACT_TANGENT_H_
 
+#include <memory>
 #include <vector>
 
 #include "core/contact/delassus.h"
@@ -26,14 +27,35 @@ struct ContactTangent {
   double u0 = 0.0, v0 = 0.0;
   double kinetic_friction = 0.0, static_friction = 0.0, restitution = 0.0;
   std::vector<double> before, response;  // PlanarReduction explains both.
+  // The tangent along the opposite direction is the opposite of this.
+  bool is_linear = false;
   // One coordinate alone is free, so that W has rank one whatever the numbers are.
   bool keeps_rank_one = false;
   bool is_at_speed_of_table = false;  // The approach speed is one that a table lists.
 };
 
-// `direction` is a scene of the form of `scene`, whose numbers are the changes of those of `scene`. Where the contact
-// does not depend smoothly on the direction, the tangent is that towards which it points.
-ContactTangent TangentOf(const Scene& scene, const SceneContact& contact, const Scene& direction);
+ContactTangent operator-(ContactTangent tangent);
+
+// The derivatives of one contact along any number of directions, for which M is factorized once.
+class ContactTangents {
+ public:
+  // `contact` is that of the scene. Both must outlive this.
+  ContactTangents(const Scene& scene, const SceneContact& contact);
+  ~ContactTangents();
+  ContactTangents(const ContactTangents&) = delete;
+  ContactTangents& operator=(const ContactTangents&) = delete;
+
+  // `direction` is a scene of the same form, whose numbers are the changes of those of the scene. Where the contact
+  // does not depend smoothly on the direction, the tangent is that towards which it points.
+  ContactTangent Along(const Scene& direction) const;
+
+ private:
+  struct Bodies;
+
+  const Scene& scene_;
+  const SceneContact& contact_;
+  std::unique_ptr<const Bodies> bodies_;  // Unset if W is given.
+};
 
 }  // namespace ricochet
 
