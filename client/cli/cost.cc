@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
@@ -22,7 +23,6 @@
 #include "client/cli/terminal/progress.h"
 #include "client/cli/text/number_input.h"
 #include "client/cost_reader.h"
-#include "proto/wire/multi_contact.h"
 
 namespace ricochet::cli {
 namespace {
@@ -38,34 +38,31 @@ Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 struct CostOptions {
   CommonOptions common;
   SceneOptions scene;
-  std::string contacts;
   std::string time_limit;
   std::string samples;
   PictureOptions picture;
   std::string html;
 };
 
-// Pictures and the page place methods by the error that they make, which is not known at several contacts.
-absl::Status CheckContacts(const CostOptions& options) {
-  if (options.contacts.empty()) return absl::OkStatus();
-  for (const auto& [given, name] :
-       {std::pair(options.scene.any(), "a scene"), std::pair(!options.picture.file.empty(), "--plot"),
-        std::pair(!options.html.empty(), "--html")}) {
-    if (given) return absl::InvalidArgumentError(absl::StrCat("--contacts: must be given without ", name));
+// Pictures and the page place methods by the error that they make.
+absl::Status RefusePictures(const CostOptions& options) {
+  for (const auto& [file, name] : {std::pair(options.picture.file, "--plot"), std::pair(options.html, "--html")}) {
+    if (file.empty()) continue;
+    return absl::InvalidArgumentError(absl::StrCat(
+        name, " ", file, ": must be left out, because the errors of the methods for several contacts are not known"));
   }
   return absl::OkStatus();
 }
 
 absl::StatusOr<CostRequest> MakeRequest(const CostOptions& options) {
   CostRequest request;
-  if (!options.contacts.empty()) {
-    v1::MultiContactScene contacts;
-    if (absl::Status status = ReadMessage(options.contacts, contacts); !status.ok()) return status;
-    request.multi_contact = FromProto(contacts);
+  std::variant<Scene, MultiContactScene> scene;
+  if (absl::Status status = ReadAnyScene(options.scene, scene); !status.ok()) return status;
+  if (auto* const several = std::get_if<MultiContactScene>(&scene)) {
+    if (absl::Status status = RefusePictures(options); !status.ok()) return status;
+    request.multi_contact = std::move(*several);
   } else {
-    absl::StatusOr<Scene> scene = ReadScene(options.scene);
-    if (!scene.ok()) return scene.status();
-    request.scene = *std::move(scene);
+    request.scene = std::get<Scene>(std::move(scene));
   }
   if (!options.time_limit.empty()) {
     const auto limit = ParseDuration(options.time_limit, "--time-limit");
@@ -88,7 +85,6 @@ absl::Status WritePage(const Scene& scene, const CostChunk& study, const std::st
 
 absl::Status RunCost(const CostOptions& options) {
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
-  if (absl::Status status = CheckContacts(options); !status.ok()) return status;
   // This comes before the solver, whose connection starts threads.
   const Interrupt interrupt;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
@@ -118,11 +114,7 @@ absl::Status RunCost(const CostOptions& options) {
 void AddCost(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("cost", "What accuracy costs in time, method by method");
   const auto options = std::make_shared<CostOptions>();
-  AddSceneOptions(*sub, options->scene);
-  MarkFile(FileUse::kRead, sub->add_option("--contacts", options->contacts,
-                                           "A ricochet.v1.MultiContactScene in place of a scene; - for standard input"))
-      ->type_name("FILE")
-      ->group("Scene");
+  AddAnySceneOptions(*sub, options->scene);
   sub->add_option("--time-limit", options->time_limit, "Time for the whole study (500ms, 10s, 1m), at most 60 s [3s]")
       ->type_name("TIME");
   sub->add_option("--samples", options->samples, "Samples taken of each time [21]")->type_name("N");

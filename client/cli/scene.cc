@@ -6,7 +6,9 @@
 #include <CLI/App.hpp>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "absl/strings/match.h"
@@ -25,6 +27,7 @@
 #include "core/rows/column.h"
 #include "core/scene/field.h"
 #include "core/scene/validate.h"
+#include "core/scene/validate_multi.h"
 #include "proto/comments/commented_protos.h"
 #include "proto/wire/multi_contact.h"
 #include "ricochet/error.h"
@@ -114,12 +117,22 @@ absl::Status RunTemplate(const SceneCommand& options) {
                                                  "\nSystems: ", absl::StrJoin(systems, ", ")));
 }
 
+std::vector<Violation> Check(const Scene& scene) { return Validate(scene, RestitutionIs::kOptional); }
+
+std::vector<Violation> Check(const MultiContactScene& scene) {
+  std::optional<MultiReduction> reduction;
+  return Validate({.scene = scene}, reduction);
+}
+
 absl::Status RunPrint(const SceneCommand& options) {
-  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
-  if (!scene.ok()) return scene.status();
-  const std::vector<Violation> violations = Validate(*scene, RestitutionIs::kOptional);
-  if (!violations.empty()) return InvalidRequest(violations);
-  return Write(options, SceneText(ToProto(*scene), options.json()));
+  std::variant<Scene, MultiContactScene> scene;
+  if (absl::Status status = ReadAnyScene(options.scene, scene); !status.ok()) return status;
+  const auto print = [&options](const auto& its_scene) -> absl::Status {
+    const std::vector<Violation> violations = Check(its_scene);
+    if (!violations.empty()) return InvalidRequest(violations);
+    return Write(options, SceneText(ToProto(its_scene), options.json()));
+  };
+  return std::visit(print, scene);
 }
 
 // --- fields and columns ---
@@ -214,7 +227,7 @@ void AddScene(CLI::App& app, Command& command) {
   const Added one = add("template", "Print a commented scene to start from", RunTemplate, kSceneFormats);
   one.app->add_option("TEMPLATE", one.options->system, "A name of `ricochet scene list`")->required();
   const Added print = add("print", "Print the scene of a file or of flags", RunPrint, kSceneFormats);
-  AddSceneOptions(*print.app, print.options->scene);
+  AddAnySceneOptions(*print.app, print.options->scene);
   const Added schema = add(
       "schema", "Print the JSON Schema of a scene, draft 2020-12",
       [](const SceneCommand& all) {

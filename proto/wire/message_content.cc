@@ -4,6 +4,8 @@
 #include <google/protobuf/wire_format.h>
 #include <google/protobuf/wire_format_lite.h>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,7 @@ class Walk {
 
   // Reads the fields of one message to their end. Returns false where something is wrong, or the bytes are no message.
   bool Read(const Descriptor& type) {
+    std::vector<Step> next;  // Of each list, the entry that comes next.
     while (const uint32_t tag = in_.ReadTag()) {
       const int number = WireFormatLite::GetTagFieldNumber(tag);
       const FieldDescriptor* const field = type.FindFieldByNumber(number);
@@ -38,7 +41,7 @@ class Walk {
               absl::StrCat("has a field of number ", number, " that the ", type.full_name(),
                            " of this version does not have: must be left out, or be sent to a newer server")}}));
       }
-      path_.push_back(field);
+      path_.push_back(field->is_repeated() && IsMessage(*field) ? TakeNext(*field, next) : Step{field});
       if (!ReadValue(*field, tag)) return false;
       path_.pop_back();
     }
@@ -49,6 +52,21 @@ class Walk {
   const absl::Status& status() const { return status_; }
 
  private:
+  struct Step {
+    const FieldDescriptor* field;
+    std::optional<int> index = std::nullopt;  // Of an entry of a list of messages.
+  };
+
+  static Step TakeNext(const FieldDescriptor& list, std::vector<Step>& next) {
+    auto found = std::find_if(next.begin(), next.end(), [&list](const Step& step) { return step.field == &list; });
+    if (found == next.end()) found = next.insert(found, {&list, 0});
+    const Step taken = *found;
+    ++*found->index;
+    return taken;
+  }
+
+  static bool IsMessage(const FieldDescriptor& field) { return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE; }
+
   static bool HasWireType(const FieldDescriptor& field, WireFormatLite::WireType wire_type) {
     return wire_type == WireFormat::WireTypeForFieldType(field.type()) ||
            (field.is_packable() && wire_type == WireFormatLite::WIRETYPE_LENGTH_DELIMITED);
@@ -60,11 +78,14 @@ class Walk {
   }
 
   std::string Path() const {
-    return absl::StrJoin(path_, ".", [](std::string* out, const FieldDescriptor* field) { *out += field->name(); });
+    return absl::StrJoin(path_, ".", [](std::string* out, const Step& step) {
+      *out += step.field->name();
+      if (step.index.has_value()) absl::StrAppend(out, "[", *step.index, "]");
+    });
   }
 
   bool ReadValue(const FieldDescriptor& field, uint32_t tag) {
-    const bool is_message = field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+    const bool is_message = IsMessage(field);
     if ((is_message || field.cpp_type() == FieldDescriptor::CPPTYPE_STRING) && ++elements_ > most_) {
       return Refuse(MakeError(absl::StatusCode::kResourceExhausted, ErrorReason::kLimitExceeded,
                               absl::StrCat("the request holds more than ", most_,
@@ -98,7 +119,7 @@ class Walk {
   CodedInputStream in_;
   const int64_t most_;
   int64_t elements_ = 0;
-  std::vector<const FieldDescriptor*> path_;
+  std::vector<Step> path_;
   absl::Status status_;
 };
 

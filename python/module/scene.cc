@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/rows/column.h"
 #include "core/scene/field.h"
-#include "proto/text/message_text.h"
+#include "proto/text/any_scene.h"
 #include "proto/wire/scene.h"
 #include "python/module/record.h"
 
@@ -28,11 +29,12 @@ struct Paths {
   bool Contains(const std::string& text) const { return std::find(texts.begin(), texts.end(), text) != texts.end(); }
 };
 
-// Returns the scene in the text of a file as a dictionary with what it sets. Raises ValueError that says why not.
+// Returns the scene in the text of a file, which may have several contacts, as a dictionary with what it sets. Raises
+// ValueError that says why not.
 py::dict ParseScene(const std::string& path, const std::string& text) {
-  v1::Scene scene;
-  if (const std::string wrong = WhyNoMessage(path, text, scene); !wrong.empty()) throw py::value_error(wrong);
-  return DictionaryOf(scene);
+  AnyScene scene;
+  if (const std::string wrong = WhyNoScene(path, text, scene); !wrong.empty()) throw py::value_error(wrong);
+  return std::visit([](const auto& its_scene) { return DictionaryOf(its_scene); }, scene);
 }
 
 constexpr char kSceneHelp[] =

@@ -14,7 +14,8 @@ def read_scene(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Reads a scene from a file that ``ricochet --scene`` takes: JSON or the text format of protobuf.
 
     Returns:
-        The scene as a dictionary, with only what the file sets.
+        The scene as a dictionary, with only what the file sets. One with ``contacts`` is for ``multicontact`` and
+        ``cost``.
 
     Raises:
         InvalidRequest: the file is no scene.

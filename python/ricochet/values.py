@@ -53,6 +53,8 @@ def suggestion(name: str, known: Iterable[str]) -> str:
 
 
 def unknown_field(path: str, name: Any, known: list[str]) -> NoReturn:
+    if name == "contacts" and "planar_contact" in known:
+        refuse(path, "is a list of several contacts, which only multicontact and cost take")
     refuse(path, f"is unknown{suggestion(str(name), known)}")
 
 

@@ -73,7 +73,7 @@ TEST(CheckContent, NamesAFieldThatIsUnknown) {
         Field(v1::Linkage::kLinksFieldNumber, "") + Field(v1::Linkage::kLinksFieldNumber, unknown);
     const Violation wrong =
         Wrong(Field(v1::SolveRequest::kSceneFieldNumber, Field(v1::Scene::kLinkageFieldNumber, linkage)));
-    EXPECT_EQ(wrong.field, "scene.linkage.links");
+    EXPECT_EQ(wrong.field, "scene.linkage.links[1]");
     EXPECT_THAT(wrong.description, HasSubstr("has a field of number 127 that the ricochet.v1.Link "));
     EXPECT_EQ(Wrong(unknown).field, "request");
   }

@@ -80,6 +80,23 @@ class Scenes(unittest.TestCase):
             scene = ricochet.read_scene(SOURCE / "tests/data/scenes" / name)
             self.assertEqual(ricochet.solve(scene).termination, "CONVERGED")
 
+    def test_files_with_several_contacts_are_read(self):
+        text = subprocess.run([os.environ["RICOCHET"], "scene", "template", "box_on_two_feet"], check=True,
+                              capture_output=True).stdout
+        with tempfile.TemporaryDirectory() as directory:
+            path = Path(directory, "box.textproto")
+            path.write_bytes(text)
+            scene = ricochet.read_scene(path)
+            path.write_bytes(text.replace(b"friction", b"fricton"))
+            with self.assertRaisesRegex(ricochet.InvalidRequest, r"box\.textproto is not a ricochet\.v1\.Multi.*fricton"):
+                ricochet.read_scene(path)
+        self.assertEqual([contact["friction"] for contact in scene["contacts"]], [1, 1])
+        self.assertEqual(ricochet.multicontact(scene).verdict, "ORDER_MATTERS")
+        with self.assertRaisesRegex(ricochet.InvalidRequest, "contacts is a list of several contacts, which only mul"):
+            ricochet.solve(scene)
+        self.assertEqual({row.method.multi_contact for row in ricochet.cost(scene, samples=1).rows},
+                         {"ORDERS", "SPRINGS", "POSSIBLE"})
+
     def test_what_is_not_set_is_none(self):
         outcome = ricochet.solve(PENDULUM)
         self.assertIsNone(outcome.contact)

@@ -266,7 +266,7 @@ class ShortNames(Case):
             "text.textproto": "pendulum { inertia_kg_m2: 1 a_m: 1 omega_minus_rad_s: -1 }",
             "unknown.textproto": "pendulum { am: 1 }",
             "two.textproto": "pendulum {} planar_body {}",
-            "several.textproto": "contacts { friction: 1 }",
+            "several.textproto": "contacts { mu: 1 }",
             "empty.json": "",
         }
         right = ("matrix.json", "list.json", "mark.json", "camel.json", "brace", "text.textproto")

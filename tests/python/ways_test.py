@@ -123,11 +123,14 @@ class Ways(unittest.TestCase):
             self.assertEqual((study.first_row, study.rows_done), (0, len(study.rows)))
 
     def test_studies_of_cost_have_the_same_methods_and_errors(self):
-        # The times differ, and what has no time left depends on them: there is several times as much as it takes.
         here, there = (client.cost(PENDULUM, time_limit_s=60, samples=1).rows for client in (self.here, self.there))
-        answers = [[json.dumps([row.name, row.method, row.claimed, row.achieved, row.velocity_after]) for row in rows]
-                   for rows in (here, there)]
-        self.assertEqual(*answers)
+        self.assertEqual([(row.name, row.method) for row in here], [(row.name, row.method) for row in there])
+        # Methods for which no time is left, as on a busy machine, have no numbers.
+        pairs = [pair for pair in zip(here, there) if all(row.status != "OUT_OF_TIME" for row in pair)]
+        self.assertGreater(len(pairs), len(here) // 2)
+        for pair in pairs:
+            answers = [json.dumps([row.status, row.claimed, row.achieved, row.velocity_after]) for row in pair]
+            self.assertEqual(*answers)
 
 
 if __name__ == "__main__":

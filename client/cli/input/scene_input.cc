@@ -20,7 +20,9 @@
 #include "client/cli/io/csv_table.h"
 #include "client/cli/text/number_input.h"
 #include "core/scene/numbers.h"
+#include "proto/text/any_scene.h"
 #include "proto/text/message_text.h"
+#include "proto/wire/multi_contact.h"
 #include "proto/wire/scene.h"
 #include "ricochet/error.h"
 
@@ -143,6 +145,12 @@ void AddSceneOptions(CLI::App& app, SceneOptions& options) {
   app.get_option("--poisson")->excludes(app.get_option("--energetic"));
 }
 
+void AddAnySceneOptions(CLI::App& app, SceneOptions& options) {
+  AddSceneOptions(app, options);
+  app.get_option("--scene")->description(
+      "A ricochet.v1.Scene, or a MultiContactScene, as JSON or textproto; - for standard input");
+}
+
 void AddMechanismOptions(CLI::App& app, SceneOptions& options) {
   MarkFile(FileUse::kRead,
            app.add_option("--mechanism", options.mechanism,
@@ -174,9 +182,10 @@ absl::Status RequireVelocity(const Scene& scene) {
                    velocities.size() == 1 ? "" : "one of ", absl::StrJoin(velocities, ", ")));
 }
 
-absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
+// Says what is wrong with the combination of the options.
+static absl::Status CheckSources(const SceneOptions& options) {
   if (!options.mechanism.empty()) {
-    if (options.file.empty() && !AnyPendulumFlag(options)) return MechanismFromFlags(options);
+    if (options.file.empty() && !AnyPendulumFlag(options)) return absl::OkStatus();
     return absl::InvalidArgumentError(
         "--mechanism cannot be combined with --scene or the flags of a pendulum: it takes --mu, --mu-static and a "
         "coefficient of restitution");
@@ -184,17 +193,38 @@ absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
   if (!options.kept.empty() || options.composite) {
     return absl::InvalidArgumentError("--keep and --composite need --mechanism FILE.npz; a scene states its own");
   }
-  if (options.file.empty()) {
-    if (AnyFlag(options)) return PendulumFromFlags(options);
+  if (options.file.empty() && !AnyFlag(options)) {
     return absl::InvalidArgumentError("no scene: give --scene FILE, or a pendulum by --a, --b, --mu, --energetic ...");
   }
-  if (AnyFlag(options)) {
+  if (!options.file.empty() && AnyFlag(options)) {
     return absl::InvalidArgumentError(
         "--scene cannot be combined with the flags of a pendulum: put the values into the file, or omit --scene");
   }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
+  if (absl::Status status = CheckSources(options); !status.ok()) return status;
+  if (!options.mechanism.empty()) return MechanismFromFlags(options);
+  if (options.file.empty()) return PendulumFromFlags(options);
   v1::Scene proto;
   if (absl::Status status = ReadMessage(options.file, proto); !status.ok()) return status;
   return FromProto(proto);
+}
+
+absl::Status ReadAnyScene(const SceneOptions& options, std::variant<Scene, MultiContactScene>& scene) {
+  if (options.file.empty()) {
+    absl::StatusOr<Scene> one = ReadScene(options);
+    if (one.ok()) scene = *std::move(one);
+    return one.status();
+  }
+  if (absl::Status status = CheckSources(options); !status.ok()) return status;
+  const absl::StatusOr<std::string> text = ReadText(options.file);
+  if (!text.ok()) return text.status();
+  AnyScene proto;
+  const std::string wrong = WhyNoScene(options.file, *text, proto);
+  if (wrong.empty()) std::visit([&scene](const auto& its_scene) { scene = FromProto(its_scene); }, proto);
+  return AsStatus(NameOf(options.file), wrong);
 }
 
 static absl::StatusOr<std::string> ReadBytes(const std::string& path) {

@@ -5,10 +5,12 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
+#include "ricochet/multi_contact.h"
 #include "ricochet/scene.h"
 
 namespace CLI {
@@ -45,6 +47,8 @@ struct SceneFlag {
 absl::Span<const SceneFlag> SceneFlags();
 
 void AddSceneOptions(CLI::App& app, SceneOptions& options);
+// The same for ReadAnyScene.
+void AddAnySceneOptions(CLI::App& app, SceneOptions& options);
 // --mechanism FILE, --keep and --composite.
 void AddMechanismOptions(CLI::App& app, SceneOptions& options);
 
@@ -53,6 +57,9 @@ void AddMechanismOptions(CLI::App& app, SceneOptions& options);
 // Errors: INVALID_ARGUMENT for neither or several of a scene, a mechanism and a pendulum, a text that is not a number,
 // an unreadable file.
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options);
+
+// Reads the same, or what a file holds that has several contacts. Errors: those of ReadScene.
+absl::Status ReadAnyScene(const SceneOptions& options, std::variant<Scene, MultiContactScene>& scene);
 
 // Returns INVALID_ARGUMENT, with the fields that may hold one, for a scene that states no velocity at all. Such a scene
 // is valid and nothing happens in it, so that the user has most likely forgotten something.

@@ -74,8 +74,7 @@ TEST_F(CliCost, LeavingFrictionOutCostsWhatThePaperSays) {
 }
 
 TEST_F(CliCost, SeveralContactsHaveTheirOwnMethods) {
-  const CliResult result =
-      RunShell("\"$R\" scene template box_on_two_feet | \"$R\" cost --contacts - --time-limit 500ms");
+  const CliResult result = RunShell("\"$R\" scene template box_on_two_feet | \"$R\" cost --scene - --time-limit 500ms");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const char* text : {"3 methods for one impact", "  orders ", "  springs ", "  possible ", "2 outcomes up to"}) {
     EXPECT_THAT(result.out, HasSubstr(text));

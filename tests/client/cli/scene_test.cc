@@ -73,6 +73,19 @@ TEST_F(CliScene, AByteOrderMarkBeforeAFileIsSkipped) {
   }
 }
 
+TEST_F(CliScene, PrintKeepsScenesWithSeveralContacts) {
+  for (const std::string name :
+       {"box_on_two_feet", "cradle", "ball_in_a_slot", "robot_feet", "stack_of_disks", "box_in_space"}) {
+    ASSERT_EQ(Run({"scene", "template", name, "-o", "several.textproto"}).exit_code, 0);
+    const CliResult answer = Run({"multicontact", "--scene", "several.textproto"});
+    for (const std::string file : {"printed.textproto", "printed.json"}) {
+      const CliResult printed = Run({"scene", "print", "--scene", "several.textproto", "-o", file});
+      EXPECT_EQ(printed.exit_code, 0) << printed.err;
+      EXPECT_EQ(Run({"multicontact", "--scene", file}).out, answer.out) << name;
+    }
+  }
+}
+
 TEST_F(CliScene, PrintRefusesWhatNoSolverWouldTake) {
   const CliResult result = Run({"scene", "print", "--a", "-1", "--energetic", "1"});
   EXPECT_EQ(result.exit_code, 2);
