@@ -10,14 +10,14 @@ require_root consumer "it makes a root directory and enters it"
 unshare --mount --pid --fork true 2>/dev/null || cannot_run "consumer needs mounts, which this machine forbids"
 launcher='' flags=-O2
 packages=$(IFS=,; echo "${core_packages[*]}")
-# The short form takes the objects of the test consumer.core_only, whose compiler, flags and folders are the same.
+# The short form takes the objects of the preset dev, whose compiler and flags are the same and whose folder is as deep.
 if is_short; then
   shared_cache=$(ccache --get-config cache_dir)
   launcher=ccache
   flags='-O2 -g1'
 fi
 run_in_fresh_debian "cmake -DSOURCE_DIR=/root/ricochet -DWORK_DIR=/root/ricochet/build/dev/tests/core_only \
-  -DCXX_FLAGS='$flags' -DLAUNCHER=$launcher -P tests/consumer/core_only_test.cmake" --include="$packages"
+  -DCORE_DIR=/root/ricochet/build/dev_core_only -DCXX_FLAGS='$flags' -DLAUNCHER=$launcher -P tests/consumer/core_only_test.cmake" --include="$packages"
 say "The core alone and a program on it build and run with no more than: $packages"
 rm -rf --one-file-system "$temporary"
 
