@@ -16,14 +16,16 @@ make_debian() {
 }
 
 # Runs a line of shell in a root directory, in a mount and a process namespace of its own: nothing to unmount and nobody
-# left when it ends. The cache of the compiler that is named third, if any, is that of the commands in it.
+# left when it ends. The cache of the compiler that is named third, if any, is that of the commands in it; what it holds
+# depends on the language of messages.
 in_root() {
   # shellcheck disable=SC2016  # The inner shell expands these.
   unshare --mount --pid --fork --kill-child sh -ec '
     mount -t proc proc "$0/proc"
     mkdir -p "$0/root/.cache/ccache"
     [ -z "$2" ] || mount --bind "$2" "$0/root/.cache/ccache"
-    exec chroot "$0" env -i HOME=/root TERM=dumb PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+    exec chroot "$0" env -i HOME=/root TERM=dumb ${LANG:+LANG=$LANG} \
+      PATH=/usr/sbin:/usr/bin:/sbin:/bin \
       CCACHE_NOHASHDIR=1 CCACHE_BASEDIR=/root/ricochet sh -ec "$1"' "$1" "$2" "${3-}"
 }
 

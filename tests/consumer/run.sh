@@ -17,7 +17,8 @@ if is_short; then
   flags='-O2 -g1'
 fi
 run_in_fresh_debian "cmake -DSOURCE_DIR=/root/ricochet -DWORK_DIR=/root/ricochet/build/dev/tests/core_only \
-  -DCORE_DIR=/root/ricochet/build/dev_core_only -DCXX_FLAGS='$flags' -DLAUNCHER=$launcher -P tests/consumer/core_only_test.cmake" --include="$packages"
+  -DCORE_DIR=/root/ricochet/build/dev_core_only -DCXX_FLAGS='$flags' -DLAUNCHER=$launcher \
+  -P tests/consumer/core_only_test.cmake" --include="$packages"
 say "The core alone and a program on it build and run with no more than: $packages"
 rm -rf --one-file-system "$temporary"
 
