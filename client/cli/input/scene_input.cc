@@ -215,8 +215,9 @@ absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
 absl::Status ReadAnyScene(const SceneOptions& options, std::variant<Scene, MultiContactScene>& scene) {
   if (options.file.empty()) {
     absl::StatusOr<Scene> one = ReadScene(options);
-    if (one.ok()) scene = *std::move(one);
-    return one.status();
+    if (!one.ok()) return one.status();
+    scene = *std::move(one);
+    return absl::OkStatus();
   }
   if (absl::Status status = CheckSources(options); !status.ok()) return status;
   const absl::StatusOr<std::string> text = ReadText(options.file);
