@@ -1,17 +1,30 @@
 #include "proto/text/any_scene.h"
 
-#include "absl/strings/match.h"
+#include <algorithm>
+#include <vector>
+
+#include "absl/strings/str_split.h"
+#include "absl/strings/string_view.h"
 #include "proto/text/message_text.h"
 
 namespace ricochet {
+namespace {
+
+// True if the text has the field `contacts`, which only scenes with several contacts have, outside comments.
+bool NamesContacts(const std::string& text) {
+  for (const absl::string_view line : absl::StrSplit(text, '\n')) {
+    const absl::string_view code = line.substr(0, line.find('#'));
+    const std::vector<absl::string_view> words = absl::StrSplit(code, absl::ByAnyChar(" \t\r{}[]<>:,;\"'"));
+    if (std::find(words.begin(), words.end(), "contacts") != words.end()) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 std::string WhyNoScene(const std::string& path, const std::string& text, AnyScene& scene) {
-  const std::string wrong = WhyNoMessage(path, text, scene.emplace<v1::Scene>());
-  if (wrong.empty()) return "";
-  const std::string wrong_as_several = WhyNoMessage(path, text, scene.emplace<v1::MultiContactScene>());
-  // A text that is neither is explained as what it is most likely meant to be: only several contacts have this field.
-  const bool means_several = absl::StrContains(text, "contacts");
-  return wrong_as_several.empty() || means_several ? wrong_as_several : wrong;
+  if (NamesContacts(text)) return WhyNoMessage(path, text, scene.emplace<v1::MultiContactScene>());
+  return WhyNoMessage(path, text, scene.emplace<v1::Scene>());
 }
 
 }  // namespace ricochet

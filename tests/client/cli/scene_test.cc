@@ -74,8 +74,8 @@ TEST_F(CliScene, AByteOrderMarkBeforeAFileIsSkipped) {
 }
 
 TEST_F(CliScene, PrintKeepsScenesWithSeveralContacts) {
-  for (const std::string name :
-       {"box_on_two_feet", "cradle", "ball_in_a_slot", "robot_feet", "stack_of_disks", "box_in_space"}) {
+  for (const SceneTemplate& one : MultiContactTemplates()) {
+    const std::string name = one.system;
     ASSERT_EQ(Run({"scene", "template", name, "-o", "several.textproto"}).exit_code, 0);
     const CliResult answer = Run({"multicontact", "--scene", "several.textproto"});
     for (const std::string file : {"printed.textproto", "printed.json"}) {
