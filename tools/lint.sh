@@ -19,7 +19,7 @@ check_scripts() {
 
 # The sources that differ from a commit, and those of the headers that do, as far as the preset dev compiles them.
 changed_sources() {
-  git diff --name-only --diff-filter=d "$1" -- core proto/wire server client python tests | grep -E '\.(h|cc)$' |
+  git diff --name-only --diff-filter=d "$1" -- core proto server client python tests | grep -E '\.(h|cc)$' |
     sed 's/\.h$/.cc/' | sort -u | while read -r file; do
     ! grep -qF "\"file\": \"$PWD/$file\"" build/dev/compile_commands.json || echo "$file"
   done
@@ -70,4 +70,4 @@ if [[ ${1-} == --changed ]]; then
 fi
 say "clang-tidy"
 run-clang-tidy -quiet -p build/dev -extra-arg=-Wno-unknown-warning-option -j "$(nproc)" \
-  "^$PWD/(core|proto/wire|server|client|tests)/.*\.cc$"
+  "^$PWD/(core|proto|server|client|python|tests)/.*\.cc$"
