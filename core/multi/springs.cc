@@ -1,13 +1,14 @@
 #include "core/multi/springs.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/multi/single_impact.h"
+#include "core/multi/spring_conditions.h"
 #include "core/multi/spring_flow.h"
+#include "core/multi/spring_tail.h"
 #include "core/numerics/elementary.h"
 
 namespace ricochet::multi {
@@ -15,8 +16,6 @@ namespace {
 
 // Rounding of v- + W p, in units of eps of the terms' magnitudes.
 constexpr double kVelocityRounding = 64.0;
-// An event is found to within this part of the largest coefficient of its condition.
-constexpr double kZeroOfEvent = 1e-10;
 // After fewer events than these a motion is not one without end.
 constexpr int64_t kLeastOfEndless = 12;
 // An error above this part of the velocities' scale is estimated from a second motion beside the first.
@@ -25,35 +24,6 @@ constexpr double kLargeError = 1e-9;
 constexpr int64_t kMostModes = 6561;
 
 size_t At(int i) { return static_cast<size_t>(i); }
-
-// The function that has to stay >= 0 for a contact to keep its mode.
-enum class Keeps { kGap, kPressed, kApproaching, kParting, kSlip, kConeAbove, kConeBelow };
-
-struct Condition {
-  int contact = 0;
-  Keeps keeps = Keeps::kGap;
-  Series series;
-  int lead = 0;
-};
-
-// The least P.B P over all P >= 0 that add up to 1; at least a lower bound of it.
-double LeastOnSimplex(const Eigen::MatrixXd& b) {
-  const auto k = static_cast<int>(b.rows());
-  if (k > kMostContactsInOrders) return b.minCoeff();
-  double least = std::numeric_limits<double>::infinity();
-  for (int set = 1; set < 1 << k; ++set) {
-    std::vector<int> members;
-    for (int i = 0; i < k; ++i) {
-      if ((set >> i & 1) != 0) members.push_back(i);
-    }
-    const auto size = static_cast<Eigen::Index>(members.size());
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(b(members, members));
-    if (!lu.isInvertible()) continue;
-    const Eigen::VectorXd x = lu.solve(Eigen::VectorXd::Ones(size));
-    if ((x * x.sum()).minCoeff() >= 0.0) least = std::min(least, 1.0 / x.sum());
-  }
-  return least;
-}
 
 class Motion {
  public:
@@ -108,104 +78,6 @@ class Motion {
 
   // --- Modes ---
 
-  void AddCondition(int contact, Keeps keeps, double sign, const Series& series, std::vector<Condition>& conditions) {
-    Condition& condition = conditions.emplace_back(Condition{.contact = contact, .keeps = keeps, .series = series});
-    if (sign < 0.0) {
-      for (double& c : condition.series.c) c = -c;
-    }
-    const bool is_event = event_.has_value() && event_->contact == contact && event_->keeps == keeps;
-    const bool has_tie = event_.has_value() && event_->has_tie;
-    const bool is_cone = keeps == Keeps::kConeAbove || keeps == Keeps::kConeBelow;
-    if (is_event || (has_tie && is_cone)) TakeForZero(0, condition.series);
-    // Where all friction is used up, slip starts without an acceleration.
-    if (has_tie && keeps == Keeps::kSlip) TakeForZero(1, condition.series);
-    condition.lead = condition.series.Lead();
-  }
-
-  // A coefficient that an event made 0 may be more than rounding where another mode divides friction anew.
-  static void TakeForZero(size_t m, Series& series) {
-    double largest = 0.0;
-    for (const double c : series.c) largest = std::max(largest, std::abs(c));
-    if (std::abs(series.c[m]) <= kZeroOfEvent * largest) series.c[m] = 0.0;
-  }
-
-  std::vector<Condition> ConditionsOf(const SpringFlow& flow) {
-    std::vector<Condition> conditions;
-    for (int i = 0; i < k_; ++i) {
-      const ContactMode mode = modes_[At(i)];
-      switch (mode.normal) {
-        case NormalMode::kOpen:
-          AddCondition(i, Keeps::kGap, 1.0, flow.gap(i), conditions);
-          continue;
-        case NormalMode::kLoading:
-          AddCondition(i, Keeps::kApproaching, -1.0, flow.velocity(2 * i + 1), conditions);
-          break;
-        case NormalMode::kUnloading:
-          AddCondition(i, Keeps::kParting, 1.0, flow.velocity(2 * i + 1), conditions);
-          AddCondition(i, Keeps::kPressed, 1.0, flow.force(i), conditions);
-          break;
-      }
-      if (!HasFriction(i)) continue;
-      if (mode.slip != 0) {
-        AddCondition(i, Keeps::kSlip, mode.slip, flow.velocity(2 * i), conditions);
-        continue;
-      }
-      const double mu = problem_.laws[At(i)].mu;
-      const Series tau = flow.Friction(i);
-      Series above = flow.force(i), below = flow.force(i);
-      for (size_t m = 0; m <= kSeriesOrder; ++m) {
-        above.c[m] = mu * above.c[m] - tau.c[m];
-        below.c[m] = mu * below.c[m] + tau.c[m];
-        above.noise[m] = below.noise[m] = mu * above.noise[m] + tau.noise[m];
-      }
-      AddCondition(i, Keeps::kConeAbove, 1.0, above, conditions);
-      AddCondition(i, Keeps::kConeBelow, 1.0, below, conditions);
-    }
-    return conditions;
-  }
-
-  // The condition that is broken at the lowest order, or null. Plastic contacts that stop approaching come last: their
-  // forces fall, and that changes the state.
-  const Condition* Broken(const std::vector<Condition>& conditions) const {
-    const Condition* broken = nullptr;
-    for (const Condition& condition : conditions) {
-      if (condition.lead > kSeriesOrder || condition.series.c[At(condition.lead)] > 0.0 || Falls(condition)) continue;
-      if (broken == nullptr || condition.lead < broken->lead) broken = &condition;
-    }
-    return broken;
-  }
-  bool Falls(const Condition& condition) const {
-    return condition.keeps == Keeps::kApproaching && condition.lead > 0 && state_.f[At(condition.contact)] > 0.0 &&
-           problem_.laws[At(condition.contact)].e == 0.0;
-  }
-
-  // Changes the mode that breaks a condition.
-  void Change(const Condition& broken) {
-    ContactMode& mode = modes_[At(broken.contact)];
-    const double force = state_.f[At(broken.contact)];
-    switch (broken.keeps) {
-      case Keeps::kGap:
-      case Keeps::kParting:
-        mode.normal = NormalMode::kLoading;
-        return;
-      case Keeps::kPressed:
-        mode.normal = NormalMode::kOpen;
-        return;
-      case Keeps::kApproaching:
-        mode.normal = force > 0.0 ? NormalMode::kUnloading : NormalMode::kOpen;
-        return;
-      case Keeps::kSlip:
-        mode.slip = static_cast<int8_t>(broken.lead == 0 ? -mode.slip : 0);
-        return;
-      case Keeps::kConeAbove:
-        mode.slip = -1;
-        return;
-      case Keeps::kConeBelow:
-        mode.slip = 1;
-        return;
-    }
-  }
-
   // The modes that the signs of the state leave open, for each contact: its own first.
   std::vector<ContactMode> OptionsOf(int i) const {
     const double force = state_.f[At(i)];
@@ -233,7 +105,7 @@ class Motion {
 
   void MakeFlow() {
     flow_.emplace(problem_, modes_, state_, v_, noise_);
-    conditions_ = ConditionsOf(*flow_);
+    conditions_ = ConditionsOf(problem_, modes_, *flow_, event_);
   }
 
   // Finds the modes in which every condition has the right sign, and the flow in them.
@@ -246,9 +118,9 @@ class Motion {
     const int most_changes = 8 * k_ + 8;
     for (int change = 0; change < most_changes; ++change) {
       MakeFlow();
-      const Condition* const broken = Broken(conditions_);
+      const Condition* const broken = Broken(conditions_, problem_, state_);
       if (broken == nullptr) return;
-      Change(*broken);
+      Change(*broken, state_.f[At(broken->contact)], modes_[At(broken->contact)]);
     }
     TryAllModes();
   }
@@ -270,7 +142,7 @@ class Motion {
         rest /= size;
       }
       MakeFlow();
-      const Condition* const broken = Broken(conditions_);
+      const Condition* const broken = Broken(conditions_, problem_, state_);
       if (broken == nullptr) return;
       if (broken->lead > best_lead) best_lead = broken->lead, best = modes_;
     }
@@ -288,7 +160,7 @@ class Motion {
       std::vector<int> falling;
       for (const Condition& condition : conditions_) {
         const bool is_broken = condition.lead <= kSeriesOrder && condition.series.c[At(condition.lead)] < 0.0;
-        if (is_broken && Falls(condition)) falling.push_back(condition.contact);
+        if (is_broken && Falls(condition, problem_, state_)) falling.push_back(condition.contact);
       }
       if (falling.empty()) return;
       if (!MayFall(falling)) {
@@ -574,10 +446,10 @@ class Motion {
       if (IsClosed(i)) stored += 0.5 * state_.f[At(i)] * state_.f[At(i)] / flow_->stiffness(i);
     }
     if (speed > 1e-9 * problem_.v.cwiseAbs().maxCoeff()) return false;
-    if (!beta_.has_value()) beta_ = Beta();
+    if (!beta_.has_value()) beta_ = BetaOf(problem_);
     const double beta = *beta_;
     if (beta > 0.0) {
-      const double impulse = (speed + std::sqrt(speed * speed + 2.0 * beta * stored)) / beta;
+      const double impulse = ImpulseToCome(beta, speed, stored);
       bool is_rounding = true;
       for (int row = 0; row < 2 * k_; ++row) {
         mobility = 0.0;
@@ -598,16 +470,6 @@ class Motion {
     result_.end = MultiContactEnd::kEndlessEstimate;
     result_.error_is_proved = false;
     return true;
-  }
-
-  double Beta() const {
-    Eigen::MatrixXd b(k_, k_);
-    const auto drag = [&](int i, int j) { return problem_.laws[At(j)].mu * std::abs(problem_.w(2 * i + 1, 2 * j)); };
-    for (int i = 0; i < k_; ++i) {
-      for (int j = 0; j < k_; ++j) b(i, j) = problem_.w(2 * i + 1, 2 * j + 1) - std::max(drag(i, j), drag(j, i));
-    }
-    // The rounding of B and of the search.
-    return LeastOnSimplex(b) - 64.0 * kEpsilon * b.cwiseAbs().maxCoeff();
   }
 
   Attained Finish() {
@@ -634,12 +496,6 @@ class Motion {
     result_.error_is_proved = result_.error_is_proved && std::isfinite(result_.error);
     return std::move(result_);
   }
-
-  struct Event {
-    int contact = 0;
-    Keeps keeps = Keeps::kGap;
-    bool has_tie = false;  // No time has passed since the event before.
-  };
 
   const Problem& problem_;
   const std::optional<Mirror> mirror_;

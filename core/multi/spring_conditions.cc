@@ -1,0 +1,127 @@
+#include "core/multi/spring_conditions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace ricochet::multi {
+namespace {
+
+size_t At(int i) { return static_cast<size_t>(i); }
+
+// A coefficient that an event made 0 may be more than rounding where another mode divides friction anew.
+void TakeForZero(size_t m, Series& series) {
+  double largest = 0.0;
+  for (const double c : series.c) largest = std::max(largest, std::abs(c));
+  if (std::abs(series.c[m]) <= kZeroOfEvent * largest) series.c[m] = 0.0;
+}
+
+class Collector {
+ public:
+  explicit Collector(const std::optional<Event>& event) : event_(event) {}
+
+  // Adds the condition that `sign` times the series stays >= 0.
+  void Add(int contact, Keeps keeps, double sign, const Series& series) {
+    Condition& condition = conditions_.emplace_back(Condition{.contact = contact, .keeps = keeps, .series = series});
+    if (sign < 0.0) {
+      for (double& c : condition.series.c) c = -c;
+    }
+    const bool is_event = event_.has_value() && event_->contact == contact && event_->keeps == keeps;
+    const bool has_tie = event_.has_value() && event_->has_tie;
+    const bool is_cone = keeps == Keeps::kConeAbove || keeps == Keeps::kConeBelow;
+    if (is_event || (has_tie && is_cone)) TakeForZero(0, condition.series);
+    // Where all friction is used up, slip starts without an acceleration.
+    if (has_tie && keeps == Keeps::kSlip) TakeForZero(1, condition.series);
+    condition.lead = condition.series.Lead();
+  }
+
+  // Adds the conditions of a contact that sticks: friction stays below mu F in both directions.
+  void AddCone(int contact, double mu, const Series& force, const Series& tau) {
+    Series above = force, below = force;
+    for (size_t m = 0; m <= kSeriesOrder; ++m) {
+      above.c[m] = mu * above.c[m] - tau.c[m];
+      below.c[m] = mu * below.c[m] + tau.c[m];
+      above.noise[m] = below.noise[m] = mu * above.noise[m] + tau.noise[m];
+    }
+    Add(contact, Keeps::kConeAbove, 1.0, above);
+    Add(contact, Keeps::kConeBelow, 1.0, below);
+  }
+
+  std::vector<Condition> Take() { return std::move(conditions_); }
+
+ private:
+  const std::optional<Event>& event_;
+  std::vector<Condition> conditions_;
+};
+
+}  // namespace
+
+std::vector<Condition> ConditionsOf(const Problem& problem, const Modes& modes, const SpringFlow& flow,
+                                    const std::optional<Event>& event) {
+  Collector conditions(event);
+  for (int i = 0; i < problem.k; ++i) {
+    const ContactMode mode = modes[At(i)];
+    switch (mode.normal) {
+      case NormalMode::kOpen:
+        conditions.Add(i, Keeps::kGap, 1.0, flow.gap(i));
+        continue;
+      case NormalMode::kLoading:
+        conditions.Add(i, Keeps::kApproaching, -1.0, flow.velocity(2 * i + 1));
+        break;
+      case NormalMode::kUnloading:
+        conditions.Add(i, Keeps::kParting, 1.0, flow.velocity(2 * i + 1));
+        conditions.Add(i, Keeps::kPressed, 1.0, flow.force(i));
+        break;
+    }
+    const double mu = problem.laws[At(i)].mu;
+    if (mu == 0.0) continue;
+    if (mode.slip != 0) {
+      conditions.Add(i, Keeps::kSlip, mode.slip, flow.velocity(2 * i));
+    } else {
+      conditions.AddCone(i, mu, flow.force(i), flow.Friction(i));
+    }
+  }
+  return conditions.Take();
+}
+
+bool Falls(const Condition& condition, const Problem& problem, const SpringState& state) {
+  return condition.keeps == Keeps::kApproaching && condition.lead > 0 && state.f[At(condition.contact)] > 0.0 &&
+         problem.laws[At(condition.contact)].e == 0.0;
+}
+
+const Condition* Broken(const std::vector<Condition>& conditions, const Problem& problem, const SpringState& state) {
+  const Condition* broken = nullptr;
+  for (const Condition& condition : conditions) {
+    if (condition.lead > kSeriesOrder || condition.series.c[At(condition.lead)] > 0.0) continue;
+    if (Falls(condition, problem, state)) continue;
+    if (broken == nullptr || condition.lead < broken->lead) broken = &condition;
+  }
+  return broken;
+}
+
+void Change(const Condition& broken, double force, ContactMode& mode) {
+  switch (broken.keeps) {
+    case Keeps::kGap:
+    case Keeps::kParting:
+      mode.normal = NormalMode::kLoading;
+      return;
+    case Keeps::kPressed:
+      mode.normal = NormalMode::kOpen;
+      return;
+    case Keeps::kApproaching:
+      mode.normal = force > 0.0 ? NormalMode::kUnloading : NormalMode::kOpen;
+      return;
+    case Keeps::kSlip:
+      mode.slip = static_cast<int8_t>(broken.lead == 0 ? -mode.slip : 0);
+      return;
+    case Keeps::kConeAbove:
+      mode.slip = -1;
+      return;
+    case Keeps::kConeBelow:
+      mode.slip = 1;
+      return;
+  }
+}
+
+}  // namespace ricochet::multi
