@@ -62,6 +62,11 @@ absl::Status ExplainFailure(const absl::Status& status) {
   if (absl::IsResourceExhausted(status) && absl::StrContains(message, "essage larger than max")) {
     return MakeError(status.code(), ErrorReason::kLimitExceeded, std::string(message));
   }
+  if (absl::IsDeadlineExceeded(status) && message == "Deadline Exceeded") {
+    return {status.code(),
+            "no answer came before the deadline (ClientOptions::deadline, 10 s unless it is set, or that of the call; "
+            "--deadline)"};
+  }
   return status;
 }
 

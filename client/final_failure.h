@@ -13,7 +13,7 @@ namespace ricochet {
 
 // Returns the status for the caller. An UNAVAILABLE by which gRPC says that a connection was refused for good becomes
 // FAILED_PRECONDITION with the cause in words before gRPC's own, and a message that is too large gets the reason
-// kLimitExceeded. Every other status stays as it is.
+// kLimitExceeded. A DEADLINE_EXCEEDED names the option that gives more time. Every other status stays as it is.
 absl::Status ExplainFailure(const absl::Status& status);
 
 // True if ExplainFailure has found that the server closed the connection, for which TLS may be the reason.

@@ -52,7 +52,7 @@ struct ClientOptions {
   // A host that is not loopback is reached through the HTTP proxy of the environment, if http_proxy names one and
   // no_proxy does not exempt the host.
   std::string target;
-  std::chrono::milliseconds deadline{10000};                // For Solve, Bounds and CheckHealth, tries included. > 0.
+  std::chrono::milliseconds deadline{10000};                // For every call with one answer, tries included. > 0.
   std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.
   // Bytes of one message of an answer, in [1, kMostReceiveBytes]. A larger one fails with RESOURCE_EXHAUSTED. A server
   // with its default limits sends no message above 4 MiB; one whose limits are raised may.

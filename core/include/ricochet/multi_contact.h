@@ -95,7 +95,7 @@ struct MultiContactState {
 // A linear function of the velocities of the system, which are listed as in MultiContactState, that gets bounds too.
 struct LinearOutput {
   std::string name;
-  std::vector<double> coefficients;
+  std::vector<double> coefficients;  // One for each component of the velocity.
   friend bool operator==(const LinearOutput&, const LinearOutput&) = default;
 };
 

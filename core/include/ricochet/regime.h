@@ -10,11 +10,11 @@ enum class Regime {
   kUnspecified = 0,
   kFrictionless = 1,  // x = mu |b|/a = 0: no tangential coupling, the three coefficients are equal.
   kRebound = 2,       // Pendulum, 0 < x < 1: slip reverses where compression ends.
-  kSliding = 3,
-  kStickInCompression = 4,
-  kStickInRestitution = 5,
-  kReversalInCompression = 6,
-  kReversalInRestitution = 7,
+  kSliding = 3,                // Slip never stops. In a plane it keeps its direction; in space it may turn.
+  kStickInCompression = 4,     // Slip stops in compression and the contact sticks.
+  kStickInRestitution = 5,     // Slip stops in restitution and the contact sticks.
+  kReversalInCompression = 6,  // Slip reverses in compression.
+  kReversalInRestitution = 7,  // Slip reverses in restitution.
   kLocked = 8,       // The constraints and friction hold the body: no restitution, velocities 0, coefficients 0.
   kWedged = 9,       // The contact had not separated when the computation ended; Outcome::termination says why.
   kSeparating = 10,  // The contact does not approach: nothing changes.
