@@ -358,6 +358,8 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
   if (problem_.coefficient == T{0}) {
     errors.tau = errors.tau_compression;
     errors.normal_restitution = errors.tangential_restitution = T{0};
+    // The change of energy is that of impulses and velocities, of which v is set to 0.
+    errors.energy += T{0.5} * problem_.graze * std::fabs(compression_end_v_) * compression_end_tau_;
     return errors;
   }
   errors.tau = impulse + kSafetyOfImpulses * std::fabs(known_impulse) +

@@ -114,6 +114,7 @@ struct Path {
   Goal<T> goal = {Quantity::kVelocity, T{0}};
   bool in_restitution = false;
   bool ended = false;
+  bool stops_short = false;  // The contact is held in restitution, before the goal of its law.
   Regime regime = Regime::kUnspecified;
   std::array<Instant, 4> events;
   int event_count = 0;

@@ -30,10 +30,10 @@ double Share(T value, T whole) {
   return whole == T{0} ? 0.0 : static_cast<double>(value / whole);
 }
 
-// The coefficient that the caller stated is in the report to the last bit.
+// The coefficient that the caller stated is in the report to the last bit, unless the contact is held before.
 template <typename T>
 void StateCoefficient(const ScaledProblem<T>& problem, const Path<T>& path, Impact& impact) {
-  if (impact.regime == Regime::kLocked || !path.ended) return;
+  if (impact.regime == Regime::kLocked || path.stops_short || !path.ended) return;
   const auto coefficient = static_cast<double>(problem.coefficient);
   switch (problem.law) {
     case RestitutionLaw::kNewton:

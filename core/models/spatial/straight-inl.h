@@ -74,9 +74,14 @@ void Follow(Progress<T>& impact, const StraightPiece<T>& piece) {
   }
 }
 
-// Follows slip along e until it stops or the impact ends.
+// Slip whose growth is no more than rounding stands still where friction and the joints would lock the body: friction
+// needs all of its cone to hold it then, and v stands still with slip.
 template <typename T>
-void FollowSlip(Progress<T>& impact, const Direction<T>& e) {
+constexpr T kStandingGrowth = T{16} * kEpsilon<T>;
+
+// Follows slip along e until it stops or the impact ends. Returns false if neither comes to pass.
+template <typename T>
+bool FollowSlip(Progress<T>& impact, const Direction<T>& e) {
   const ScaledProblem<T>& problem = impact.problem;
   const Slopes<T> slopes = problem.SlopesAlong(e);
   const T slip = impact.path.state.Slip();
@@ -90,13 +95,19 @@ void FollowSlip(Progress<T>& impact, const Direction<T>& e) {
                             .f1 = -problem.mu * e.c,
                             .f2 = -problem.mu * e.s,
                             .length = growth < T{0} && !problem.grazes ? -slip / growth : kInfinity<T>};
-  // Where friction and the joints will lock the body, v vanishes with u, and rounding must not let it come first.
-  if (!impact.path.in_restitution && piece.length < kInfinity<T> && problem.w.rank < 3) {
+  if (problem.w.rank < 3) {
     const Sticking<T> sticking = problem.w.Stick(problem.mu_static);
-    piece.ends_locked = sticking.holds && problem.Locks(sticking);
+    const bool locks = sticking.holds && problem.Locks(sticking);
+    if (locks && std::fabs(growth) <= kStandingGrowth<T> * problem.rate) {
+      piece.slopes = {T{0}, T{0}, T{0}};
+      piece.length = kInfinity<T>;
+    }
+    // Where friction and the joints will lock the body, v vanishes with u, and rounding must not let it come first.
+    piece.ends_locked = locks && !impact.path.in_restitution && piece.length < kInfinity<T>;
   }
   impact.errors.SetSlopesOfSlip(piece.slopes);
   Follow(impact, piece);
+  return impact.path.ended || piece.length < kInfinity<T>;
 }
 
 // Ends the impact at rest: no further impulse can move the body.
@@ -105,6 +116,7 @@ void EndLocked(Progress<T>& impact) {
   impact.path.SetRegime(Regime::kLocked, Regime::kStickInRestitution);
   const Slopes<T> none = {T{0}, T{0}, T{0}};
   impact.path.state.v = T{0};
+  impact.path.stops_short = impact.path.in_restitution;
   if (!impact.path.in_restitution) impact.EndCompression(none);
   if (!impact.path.ended) impact.EndImpact(none);
 }
@@ -143,8 +155,8 @@ void ContinueFromStop(Progress<T>& impact) {
 // Follows slip along e, which has the direction of slip and does not turn, and what comes after its stop.
 template <typename T>
 void SlideStraight(Progress<T>& impact, const Direction<T>& e) {
-  internal::FollowSlip(impact, e);
-  if (!impact.path.ended) ContinueFromStop(impact);
+  const bool comes_to_an_end = internal::FollowSlip(impact, e);
+  if (comes_to_an_end && !impact.path.ended) ContinueFromStop(impact);
 }
 
 // Follows slip along e that stands still, as it does where Wtt is singular and part of the slip is beyond the reach of

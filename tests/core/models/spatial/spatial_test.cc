@@ -632,6 +632,62 @@ TEST(SpatialTest, RankTwoThatSticksIsLocked) {
   EXPECT_EQ(impact.energetic, 0.0);
 }
 
+// A point of an arm with two coordinates: M = (4, 2; 2, 5), t1 = (1, 1), t2 = (1, 2), n = (-1, 2), rates (-1, -2). Wtt^-1
+// wtn has the length 5, so that a friction of 5 needs all of its cone to hold the contact.
+Problem ArmWithTwoCoordinates(double mu) {
+  return {.w11 = 5.0 / 16.0,
+          .w12 = 7.0 / 16.0,
+          .w13 = 1.0 / 16.0,
+          .w22 = 13.0 / 16.0,
+          .w23 = 11.0 / 16.0,
+          .w33 = 29.0 / 16.0,
+          .u0 = {-3.0, -5.0},
+          .v0 = -3.0,
+          .mu = mu,
+          .mu_static = mu};
+}
+
+TEST(SpatialTest, AContactThatLocksInRestitutionHasTheCoefficientsThatCameOfIt) {
+  for (const RestitutionLaw law : {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
+    Problem problem = ArmWithTwoCoordinates(6.0);
+    problem.law = law;
+    problem.coefficient = law == RestitutionLaw::kNewton ? 0.9 : 50.0;
+    const Impact impact = Solve(problem);
+    ASSERT_TRUE(impact.Converged());
+    EXPECT_EQ(impact.regime, Regime::kStickInRestitution);
+    EXPECT_EQ(impact.v1, 0.0);
+    EXPECT_EQ(impact.newton, 0.0);
+    EXPECT_EQ(impact.poisson, (impact.tau1 - impact.tau_compression) / impact.tau_compression);
+    EXPECT_LT(impact.poisson, 49.0);
+    EXPECT_GT(impact.tau1, 1.5 * impact.tau_compression);
+    // W p = -(u0, v0): the impulse brings the contact to rest.
+    const double f1 = impact.f1[0], f2 = impact.f1[1], tau = impact.tau1;
+    EXPECT_NEAR((5.0 * f1 + 7.0 * f2 + tau) / 16.0, 3.0, 1e-10);
+    EXPECT_NEAR((7.0 * f1 + 13.0 * f2 + 11.0 * tau) / 16.0, 5.0, 1e-10);
+    EXPECT_NEAR((f1 + 11.0 * f2 + 29.0 * tau) / 16.0, 3.0, 1e-10);
+  }
+}
+
+// Slip stands still on the edge of the cone, and v with it: an impact that asks for a larger v has no end.
+TEST(SpatialTest, AContactThatOnlyAllOfFrictionHoldsStandsStill) {
+  Problem problem = ArmWithTwoCoordinates(5.0);
+  problem.law = RestitutionLaw::kNewton;
+  problem.coefficient = 1.0;
+  double v1 = 0.0;
+  for (const double tolerance : {1e-12, 1e-9, 1e-6, 1e-3}) {
+    problem.tolerance = tolerance;
+    const Impact impact = Solve(problem);
+    EXPECT_EQ(impact.termination, Termination::kRefused) << tolerance;
+    if (v1 == 0.0) v1 = impact.v1;
+    EXPECT_NEAR(impact.v1, v1, tolerance * 5.0);
+    EXPECT_GT(impact.v1, 1.0);
+  }
+  // Its work of restitution grows without end, so that the energetic coefficient is reached there.
+  problem.law = RestitutionLaw::kEnergetic;
+  problem.coefficient = 0.9;
+  EXPECT_TRUE(Solve(problem).Converged());
+}
+
 // Compression ends when slip is below rounding already, so that it is in doubt which comes first; but either way the
 // contact is locked, or starts from rest.
 TEST(SpatialTest, HasAnErrorWhereCompressionEndsNearlyAtRest) {
