@@ -24,8 +24,6 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // A number is an outlier if normal errors would make any of all numbers one with less than this probability.
 constexpr double kOutlierBelow = 0.05;
-// An audit takes errors of so many sigmas for possible.
-constexpr double kAuditSigmas = 3.0;
 // Sides that differ by less than this part of the larger one differ by curvature and rounding.
 constexpr double kSidesAgree = 0.01;
 // Searches that end nearer to each other than this part of sigma, or of the unknown, end in the same place.
@@ -57,11 +55,24 @@ void SetRows(const Problem& problem, const std::vector<double>& best, Model& mod
   });
 }
 
-// The velocity after the impact that a row measured, if it measured all of it, and the largest error of a component of
+// Errors of so many sigmas are possible: normal errors would make any of `rows` velocities err by more with less than the
+// probability at which the data refuse the physics.
+double PossibleSigmas(size_t rows) {
+  double low = 0.0, high = 40.0;
+  constexpr int kEnough = 50;
+  for (int i = 0; i < kEnough; ++i) {
+    const double middle = 0.5 * (low + high);
+    const bool is_possible = ChiSquaredBeyond(middle * middle, 1.0) * static_cast<double>(rows) >= kFitRefusedBelow;
+    (is_possible ? low : high) = middle;
+  }
+  return high;
+}
+
+// The velocity after the impact that a row measured, if it measured all of it, and the largest sigma of a component of
 // the contact's.
 struct MeasuredVelocity {
   Observed observed;
-  double uncertainty = 0.0;
+  double sigma = 0.0;
 };
 
 // The number that a row measured at a path. Its sigma widens `sigma`.
@@ -80,7 +91,7 @@ std::optional<MeasuredVelocity> VelocityOf(const Problem& problem, size_t row, c
   // The contact of a pendulum moves by its rate times its distance from the pin.
   if (const auto* const pendulum = std::get_if<Pendulum>(&scene.system)) {
     if (const auto rate = MeasuredAt(problem, row, "rates_after_rad_s[0]", sigma)) {
-      return MeasuredVelocity{ObservedRates{{*rate}}, kAuditSigmas * sigma * Hypot(pendulum->a_m, pendulum->b_m)};
+      return MeasuredVelocity{ObservedRates{{*rate}}, sigma * Hypot(pendulum->a_m, pendulum->b_m)};
     }
   }
   ContactVelocity velocity;
@@ -93,17 +104,18 @@ std::optional<MeasuredVelocity> VelocityOf(const Problem& problem, size_t row, c
   const auto v = MeasuredAt(problem, row, "contact_velocity_after.normal_m_s", sigma);
   if (!v.has_value()) return std::nullopt;
   velocity.normal_m_s = *v;
-  return MeasuredVelocity{velocity, kAuditSigmas * sigma};
+  return MeasuredVelocity{velocity, sigma};
 }
 
 void AuditRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
+  const double sigmas = PossibleSigmas(problem.rows);
   for (size_t row = 0; row < problem.rows; ++row) {
     const Scene& scene = model.SceneOf(row, best);
     const std::optional<MeasuredVelocity> velocity = VelocityOf(problem, row, scene);
     if (!velocity.has_value()) continue;
-    const absl::StatusOr<AuditResponse> audit =
-        AuditScene({.scene = scene, .observed = velocity->observed, .velocity_uncertainty_m_s = velocity->uncertainty},
-                   [&model] { return model.is_stopped(); });
+    const absl::StatusOr<AuditResponse> audit = AuditScene(
+        {.scene = scene, .observed = velocity->observed, .velocity_uncertainty_m_s = sigmas * velocity->sigma},
+        [&model] { return model.is_stopped(); });
     if (!audit.ok()) continue;
     for (int limit = 1; limit < kAuditLimitCount; ++limit) {
       if (audit->report[static_cast<AuditLimit>(limit)].verdict != Verdict::kBroken) continue;

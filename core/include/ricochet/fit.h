@@ -118,7 +118,7 @@ struct FitRow {
   Regime regime = Regime::kUnspecified;   // At the best fit.
   std::vector<double> predicted;          // One for each measured column.
   std::vector<double> residuals;          // (measured - predicted)/sigma; NaN where nothing was measured.
-  std::vector<AuditLimit> broken_limits;  // The measured velocity after the impact breaks these by over 3 sigma.
+  std::vector<AuditLimit> broken_limits;  // The measured velocity breaks these by more than its errors explain.
   friend bool operator==(const FitRow&, const FitRow&) = default;
 };
 
