@@ -58,6 +58,7 @@ class Search {
       squares(t + a, t + a) += own(a) * own(a);
       state.work_error += 4.0 * std::abs(impact.impulse(a)) * state.ErrorOf(problem_, t + a);
     }
+    if (!impact.impulse_is_known) state.normal_impulse_error(i) = std::numeric_limits<double>::infinity();
     state.error_terms += d;
     state.work_error += impact.work_error;
   }

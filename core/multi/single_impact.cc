@@ -1,5 +1,6 @@
 #include "core/multi/single_impact.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -52,6 +53,14 @@ SingleImpact SolvePlane(const ContactBlock& w, const ContactLaw& law, const Cont
   return single;
 }
 
+// The least eigenvalue of W that is no rounding.
+double LeastMobility(const ContactBlock& w) {
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(w, Eigen::EigenvaluesOnly).eigenvalues();
+  const double largest = values(values.size() - 1);
+  return *std::find_if(values.begin(), values.end(), [largest](double x) { return x > kRangeRank * largest; });
+}
+
 SingleImpact SolveSpace(const ContactBlock& w, const ContactLaw& law, const ContactVector& x) {
   const spatial::Impact impact = spatial::Solve({.w11 = w(0, 0),
                                                  .w12 = w(0, 1),
@@ -73,8 +82,13 @@ SingleImpact SolveSpace(const ContactBlock& w, const ContactLaw& law, const Cont
   single.impulse = Eigen::Vector3d(impact.f1[0], impact.f1[1], impact.tau1);
   single.velocity = Eigen::Vector3d(impact.u1[0], impact.u1[1], impact.v1);
   single.velocity_error = impact.error_estimate * x.cwiseAbs().maxCoeff();
-  single.tangential_error = impact.errors.f;
-  single.normal_error = impact.errors.tau;
+  single.impulse_is_known = std::isfinite(impact.errors.f) && std::isfinite(impact.errors.tau);
+  if (single.impulse_is_known) {
+    single.tangential_error = impact.errors.f;
+    single.normal_error = impact.errors.tau;
+  } else {
+    single.tangential_error = single.normal_error = single.velocity_error / LeastMobility(w);
+  }
   single.work_error = std::max({impact.errors.work_normal_compression, impact.errors.work_normal_restitution,
                                 impact.errors.work_tangential_compression + impact.errors.work_tangential_restitution});
   return single;

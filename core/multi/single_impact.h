@@ -23,8 +23,11 @@ struct SingleImpact {
   bool ended = true;  // False if the contact jams, so that its impact has no end; nothing else is set then.
   ContactVector impulse, velocity;
   ContactWorks works;
-  // Errors of each component of the velocity, of each component of the impulse, and of each work.
+  // Errors of each component of the velocity, of each component of the impulse, and of each work, which may be infinite.
   double velocity_error = 0.0, tangential_error = 0.0, normal_error = 0.0, work_error = 0.0;
+  // False if only such errors of the impulse are known as change a velocity, as in space where friction and the joints
+  // lock the contact.
+  bool impulse_is_known = true;
   bool error_is_proved = true;  // False if an error, or D, is an estimate.
   ContactBlock derivative;      // D
 };

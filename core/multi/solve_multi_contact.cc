@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/models/impact_errors.h"
 #include "core/multi/energy.h"
 #include "core/multi/mirror.h"
 #include "core/multi/orders.h"
@@ -157,10 +158,10 @@ class Answerer {
     AttainedOutcome outcome = {.end = attained.end,
                                .events = attained.events,
                                .friction_split_is_unique = attained.split_is_unique,
-                               .work_error_j = attained.work_error * EnergyScale(),
+                               .work_error_j = KnownError(attained.work_error * EnergyScale()),
                                .error_is_proved = attained.error_is_proved};
     Vector error(attained.v.size());
-    for (int j = 0; j < error.size(); ++j) error(j) = attained.ErrorOf(problem, j) * v_scale_;
+    for (int j = 0; j < error.size(); ++j) error(j) = KnownError(attained.ErrorOf(problem, j) * v_scale_);
     // Adding 0 makes -0 positive.
     Vector in_scene = (sorted_.InScene(attained.v) * v_scale_).array() + 0.0;
     outcome.contact_velocity_m_s.assign(in_scene.begin(), in_scene.end());
@@ -174,7 +175,7 @@ class Answerer {
     outcome.contacts.resize(static_cast<size_t>(problem.k));
     for (int i = 0; i < problem.k; ++i) {
       const auto place = static_cast<size_t>(sorted_.from[static_cast<size_t>(i)]);
-      outcome.normal_impulse_error_n_s[place] = attained.ErrorOfNormalImpulse(problem, i) * ImpulseScale();
+      outcome.normal_impulse_error_n_s[place] = KnownError(attained.ErrorOfNormalImpulse(problem, i) * ImpulseScale());
       outcome.contacts[place] = LedgerOf(attained, i);
     }
     Sum change;
@@ -194,7 +195,7 @@ class Answerer {
       }
       outcome.velocity.push_back(velocity_(i) + change.value() * ImpulseScale());
       const double of_state = attained.ErrorOfRow(row, reduction_.mobility(i) * w_scale_) * ImpulseScale();
-      outcome.velocity_error.push_back(of_state + 4.0 * kEpsilon * size);
+      outcome.velocity_error.push_back(KnownError(of_state + 4.0 * kEpsilon * size));
     }
   }
 
@@ -386,7 +387,7 @@ bool IsFinite(const AttainedOutcome& outcome) {
     return std::all_of(list.begin(), list.end(), [](double x) { return std::isfinite(x); });
   };
   return all(outcome.contact_velocity_m_s) && all(outcome.velocity) && all(outcome.impulse_n_s) &&
-         std::isfinite(outcome.energy_change_j) && std::isfinite(outcome.work_error_j);
+         std::isfinite(outcome.energy_change_j);
 }
 
 }  // namespace
@@ -406,10 +407,11 @@ absl::StatusOr<std::vector<MultiContactAnswer>> SolveMultiContact(const MultiCon
     if (!reduction.ContactVelocity(velocity).allFinite()) return OutputOverflow("contact_velocity_before_m_s");
     MultiContactAnswer& answer = answers.emplace_back(multi::Answerer(request, reduction, velocity, stopped).Answer());
     if (stopped()) return absl::CancelledError("stopped");
-    const bool fits = std::all_of(answer.orders.begin(), answer.orders.end(), multi::IsFinite) &&
-                      (!answer.springs.has_value() || multi::IsFinite(*answer.springs)) &&
-                      std::isfinite(answer.energy_before_j);
-    if (!fits) return OutputOverflow("answers.energy_before_j");
+    if (!std::isfinite(answer.energy_before_j)) return OutputOverflow("answers.energy_before_j");
+    if (!std::all_of(answer.orders.begin(), answer.orders.end(), multi::IsFinite)) {
+      return OutputOverflow("answers.orders");
+    }
+    if (answer.springs.has_value() && !multi::IsFinite(*answer.springs)) return OutputOverflow("answers.springs");
   }
   return answers;
 }

@@ -36,6 +36,8 @@ class Motion {
 
   // The errors of all steps and events before any growth.
   double made() const { return made_; }
+  // True if the force of a plastic contact has fallen.
+  bool has_fallen() const { return has_fallen_; }
 
   Attained Run(int64_t budget) {
     Refresh();
@@ -220,6 +222,7 @@ class Motion {
 
   // Lets the forces fall, all by as much, until the integral of the normal acceleration over the fall is 0, or to 0.
   void Fall(const std::vector<int>& falling) {
+    has_fallen_ = true;
     const int first = falling[0];
     double ratio = 0.0;
     double integral = 0.0;
@@ -513,6 +516,7 @@ class Motion {
   std::optional<double> beta_;
   double made_ = 0.0;  // The errors of all steps and events, none of them grown.
   int64_t steps_ = 0;
+  bool has_fallen_ = false;
 };
 
 // The largest component of a velocity over the root of its mobility: its size in the metric of energy.
@@ -540,6 +544,28 @@ void EstimateError(const Problem& problem, absl::FunctionRef<bool()> stopped, in
   const double start = SizeOf(problem, beside.v - problem.v);
   const double growth = start > 0.0 ? SizeOf(problem, other.v - result.v) / start : 1.0;
   result.error = std::min(result.error, kMargin * std::max(growth, 1.0) * made);
+  result.error_is_proved = false;
+}
+
+// What a fall leaves is the limit of small coefficients only if friction does not stop and start slip during it. Such
+// coefficients tell: where they end elsewhere, theirs is the answer, with an error estimated from two of them.
+void CompareWithSmallCoefficients(const Problem& problem, const std::optional<Mirror>& mirror,
+                                  absl::FunctionRef<bool()> stopped, int64_t budget, Attained& result) {
+  constexpr double kAgree = 1e-5;
+  constexpr double kMargin = 4.0;
+  const auto solve = [&](double coefficient) {
+    Problem beside = problem;
+    for (ContactLaw& law : beside.laws) {
+      if (law.e == 0.0) law.e = coefficient;
+    }
+    return Motion(beside, mirror, stopped).Run(budget);
+  };
+  Attained small = solve(0x1p-26);
+  const double agree = kAgree * SizeOf(problem, problem.v);
+  if (SizeOf(problem, small.v - result.v) <= agree) return;
+  const double apart = SizeOf(problem, small.v - solve(0x1p-22).v);
+  result = std::move(small);
+  result.error = kMargin * std::sqrt(2.0 * problem.k) * std::max(apart, agree);
   result.error_is_proved = false;
 }
 
@@ -572,6 +598,7 @@ Attained FindSprings(const Problem& problem, const std::optional<Mirror>& mirror
   Attained result = motion.Run(budget);
   const double large = kLargeError * SizeOf(problem, problem.v);
   if (!result.error_is_proved || result.error > large) EstimateError(problem, stopped, budget, motion.made(), result);
+  if (motion.has_fallen()) CompareWithSmallCoefficients(problem, mirror, stopped, budget, result);
   return result;
 }
 

@@ -121,9 +121,10 @@ void AddConnectionOptions(CLI::App& app, ConnectionInput& input) {
   app.add_option("--server", input.server,
                  "Ask the ricochetd at this address, or the first that answers, instead of computing here")
       ->type_name("HOST:PORT|unix:PATH,...");
-  app.add_option("--deadline", input.deadline,
-                 "Give up after this time (250ms, 30s, 5m; a bare number is in seconds); needs --server [10s, but none for "
-                 "sweep and cost]")
+  app.add_option(
+         "--deadline", input.deadline,
+         "Give up after this time (250ms, 30s, 5m; a bare number is in seconds); needs --server [10s, but none for "
+         "sweep and cost]")
       ->type_name("TIME");
   app.add_option("--max-receive", input.max_receive, "Refuse a larger message of an answer; needs --server [4194304]")
       ->type_name("BYTES");

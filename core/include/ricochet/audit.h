@@ -47,14 +47,7 @@ struct AuditColumns {
 };
 
 // The first two limits have the same numbers as in ricochet::LimitKind.
-enum class AuditLimit {
-  kUnspecified = 0,
-  kSharp = 1,          // The energetic coefficient is at most 1.
-  kEnergy = 2,         // Kinetic energy does not grow.
-  kNormalImpulse = 3,  // The contact pushes.
-  kPenetration = 4,    // The contact does not approach after the impact.
-  kCone = 5,           // |p_t| <= mu p_n.
-};
+enum class AuditLimit { kUnspecified = 0, kSharp = 1, kEnergy = 2, kNormalImpulse = 3, kPenetration = 4, kCone = 5 };
 inline constexpr int kAuditLimitCount = 6;
 
 enum class Verdict {

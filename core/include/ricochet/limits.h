@@ -70,13 +70,13 @@ struct NamedLimit {
 
 // Every limit, in the order of the struct.
 inline constexpr NamedLimit kLimits[] = {
-    {"max_links", &Limits::max_links, 1'000'000, "Links of a linkage, coordinates of a mechanism, or bodies that touch at several contacts"},
+    {"max_links", &Limits::max_links, 1'000'000, "Links of a linkage, or coordinates of a mechanism"},
     {"max_list_numbers", &Limits::max_list_numbers, 1'000'000, "Numbers in one list of a scene"},
     {"max_ranges", &Limits::max_ranges, 1'000'000, "Uncertain fields of one request for bounds"},
     {"max_boxes", &Limits::max_boxes, 200'000, "Boxes that one enclosure evaluates; fewer leave it wider"},
     {"max_axes", &Limits::max_axes, 1'000'000, "Axes of a sweep"},
     {"max_axis_values", &Limits::max_axis_values, 1'000'000, "Values of an axis that lists them"},
-    {"max_columns", &Limits::max_columns, 1'000'000, "Columns of a sweep or a batch, or outputs of several contacts"},
+    {"max_columns", &Limits::max_columns, 1'000'000, "Columns of a sweep or a batch"},
     {"max_points_per_sweep", &Limits::max_points_per_sweep, int64_t{1} << 53, "Points of a sweep"},
     {"max_digits_times_links", &Limits::max_digits_times_links, 1'000'000'000,
      "Certified digits times links of the system"},
@@ -90,7 +90,7 @@ inline constexpr NamedLimit kLimits[] = {
      "States of several contacts times the cube of the contacts"},
     {"max_derivatives", &Limits::max_derivatives, 1'000'000, "Derivatives of one impact"},
     {"max_fit_work", &Limits::max_fit_work, 1'000'000'000'000,
-     "Measured numbers of a fit x (unknowns + 1) x starts x iterations, of which 16 count at least"},
+     "Measured numbers of a fit times unknowns and one, starts and iterations"},
 };
 
 constexpr Limits Limits::None() {

@@ -150,7 +150,7 @@ struct AttainedOutcome {
   MultiContactEnd end = MultiContactEnd::kUnspecified;
   int64_t events = 0;                              // Impacts, or events on springs.
   std::vector<double> contact_velocity_m_s;        // After: kd numbers.
-  std::vector<double> contact_velocity_error_m_s;  // One for each.
+  std::vector<double> contact_velocity_error_m_s;  // One for each; infinite if none is known, as the others are.
   std::vector<double> velocity;                    // The velocity of the system after, listed as in MultiContactState.
   std::vector<double> velocity_error;              // One for each.
   std::vector<double> impulse_n_s;                 // kd numbers; empty if wedged.
@@ -159,7 +159,7 @@ struct AttainedOutcome {
   bool friction_split_is_unique = true;
   std::vector<ContactLedger> contacts;
   double energy_change_j = 0.0;
-  double work_error_j = 0.0;  // The error of each work and of the change of energy.
+  double work_error_j = 0.0;  // The error of each work and of the change of energy; infinite if none is known.
   bool error_is_proved = false;
   friend bool operator==(const AttainedOutcome&, const AttainedOutcome&) = default;
 };

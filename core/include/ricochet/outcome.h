@@ -48,14 +48,13 @@ struct Impulse {
   friend bool operator==(const Impulse&, const Impulse&) = default;
 };
 
-// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j
-// and, where a tangential spring gives back energy, tangential_restitution_j. An impact law has no phases: all four are
-// then unset, and the residual is that of the two totals.
+// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j. An
+// impact law has no phases: all four are then unset, and the residual is that of the two totals.
 struct WorkLedger {
   std::optional<double> normal_compression_j = 0.0;
   std::optional<double> normal_restitution_j = 0.0;
   std::optional<double> tangential_compression_j = 0.0;
-  std::optional<double> tangential_restitution_j = 0.0;
+  std::optional<double> tangential_restitution_j = 0.0;  // > 0 where a tangential spring gives back energy.
   double normal_total_j = 0.0;          // -(energy lost to irreversible deformation), Lubarda Eq. (37).
   double tangential_total_j = 0.0;      // -(energy lost to friction and left in a tangential spring), Lubarda Eq. (35).
   double friction_dissipation_j = 0.0;  // >= 0

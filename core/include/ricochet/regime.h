@@ -8,8 +8,8 @@ namespace ricochet {
 // The numbers are those of ricochet.v1.Regime.
 enum class Regime {
   kUnspecified = 0,
-  kFrictionless = 1,  // x = mu |b|/a = 0: no tangential coupling, the three coefficients are equal.
-  kRebound = 2,       // Pendulum, 0 < x < 1: slip reverses where compression ends.
+  kFrictionless = 1,           // x = mu |b|/a = 0: no tangential coupling, the three coefficients are equal.
+  kRebound = 2,                // Pendulum, 0 < x < 1: slip reverses where compression ends.
   kSliding = 3,                // Slip never stops. In a plane it keeps its direction; in space it may turn.
   kStickInCompression = 4,     // Slip stops in compression and the contact sticks.
   kStickInRestitution = 5,     // Slip stops in restitution and the contact sticks.

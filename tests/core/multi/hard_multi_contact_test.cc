@@ -92,6 +92,49 @@ TEST(HardMultiContactTest, PlasticSpringsAreTheLimitOfSpringsThatAreNearlyPlasti
   EXPECT_GE(compared, 10);
 }
 
+// A plastic contact falls more than once here, between elastic ones.
+TEST(HardMultiContactTest, APlasticContactBetweenElasticOnesIsTheLimitOfOneThatIsNearlyPlastic) {
+  Eigen::MatrixXd j(6, 7);
+  j << 3, -2, 1, -3, 2, 0, -3,   //
+      -2, -2, -3, -1, 2, -1, 0,  //
+      2, 0, -2, -2, -2, 0, 0,    //
+      3, 2, 1, 0, 1, 2, 2,       //
+      -1, -1, -1, 2, 0, -3, -2,  //
+      -2, -1, -1, -1, 1, 1, -1;
+  Eigen::VectorXd rates(7);
+  rates << 3, -1, -2, 2, -2, -1, -1;
+  Problem problem = {.d = 2, .k = 3, .w = j * j.transpose(), .v = j * rates};
+  const auto with = [&](double e) {
+    problem.laws = {{.mu = 0.5, .e = 1.0, .stiffness = 10.0}, {.mu = 0.3, .e = e}, {.mu = 2.0, .e = 1.0}};
+    return FindSprings(problem, std::nullopt, kNever);
+  };
+  const Attained plastic = with(0.0);
+  const Attained nearly = with(1e-6);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR(plastic.v(i), nearly.v(i), plastic.ErrorOf(problem, i) + nearly.ErrorOf(problem, i) + 1e-5) << i;
+    EXPECT_LE(plastic.ErrorOf(problem, i), 1e-2) << i;
+  }
+}
+
+// In space friction and the joints lock this contact, of whose works nothing is known.
+TEST(HardMultiContactTest, AContactThatLocksInSpaceHasAnAnswer) {
+  const Mechanism mechanism = {
+      .mass_matrix = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .jacobian = {0, 2, -1, 0, 2, 2, 0, 2, 0}, .rates = {-2, -1, 1}};
+  const LocalSolver solver;
+  const auto response =
+      solver.MultiContact({.scene = {.system = mechanism, .contacts = {{.friction = 1.0, .energetic = 0.5}}},
+                           .methods = {MultiContactMethod::kOrders}});
+  ASSERT_TRUE(response.ok()) << response.status();
+  const AttainedOutcome& outcome = response->answers.front().orders.front();
+  const auto one = solver.Solve(
+      {.scene = {
+           .system = mechanism, .friction = {.kinetic_coefficient = 1.0}, .restitution = EnergeticCoefficient{0.5}}});
+  ASSERT_TRUE(one.ok()) << one.status();
+  EXPECT_NEAR(outcome.contact_velocity_m_s[2], one->outcome.contact_velocity_after.normal_m_s, 1e-9);
+  EXPECT_LT(outcome.contact_velocity_error_m_s[2], 1e-6);
+  EXPECT_TRUE(std::isinf(outcome.work_error_j));
+}
+
 // Contacts 1 and 2 strike one after the other as their stiffnesses part, and chatter in between.
 TEST(HardMultiContactTest, StiffnessRatiosFromAMillionthToAMillion) {
   for (int exponent = -6; exponent <= 6; ++exponent) {
