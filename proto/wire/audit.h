@@ -25,8 +25,6 @@ AuditReport FromProto(const v1::AuditReport& proto);
 
 template <>
 struct EnumPair<Verdict> : SameNumbers<v1::LimitCheck::Verdict, v1::LimitCheck::Verdict_IsValid> {};
-template <>
-struct EnumPair<v1::LimitCheck::Verdict> : SameNumbers<Verdict, v1::LimitCheck::Verdict_IsValid> {};
 
 }  // namespace ricochet
 

@@ -34,8 +34,8 @@ absl::Span<const double> Doubles(const std::string& bytes) {
 }
 
 // Returns the regime or status of a byte; a number that this build does not know becomes kUnspecified.
-Regime RegimeOf(char byte) { return FromProto(static_cast<v1::Regime>(static_cast<uint8_t>(byte))); }
-RowStatus StatusOf(char byte) { return FromProto(static_cast<v1::RowStatus>(static_cast<uint8_t>(byte))); }
+Regime RegimeOf(char byte) { return FromProto<Regime>(static_cast<v1::Regime>(static_cast<uint8_t>(byte))); }
+RowStatus StatusOf(char byte) { return FromProto<RowStatus>(static_cast<v1::RowStatus>(static_cast<uint8_t>(byte))); }
 
 absl::Status Misfit(const std::string& what, size_t found, size_t wanted) {
   return absl::DataLossError(absl::StrCat("the answer to a batch has ", found, " ", what, " in place of ", wanted));

@@ -15,8 +15,6 @@ CostRequest FromProto(const v1::CostRequest& proto);
 // A number that this build does not know becomes kUnspecified.
 template <>
 struct EnumPair<CostStatus> : SameNumbers<v1::CostRow::Status, v1::CostRow::Status_IsValid> {};
-template <>
-struct EnumPair<v1::CostRow::Status> : SameNumbers<CostStatus, v1::CostRow::Status_IsValid> {};
 
 v1::CostResponse ToProto(const CostChunk& chunk);
 CostChunk FromProto(const v1::CostResponse& proto);

@@ -14,21 +14,17 @@ template <typename OtherEnum, bool (*kIsValid)(int)>
 struct SameNumbers {
   using Other = OtherEnum;
 
-  template <typename Enum>
-  static Other Of(Enum value) {
-    const int number = static_cast<int>(value);
-    return static_cast<Other>(kIsValid(number) ? number : 0);
-  }
+  static int Known(int number) { return kIsValid(number) ? number : 0; }
 };
 
 template <typename Enum>
 typename EnumPair<Enum>::Other ToProto(Enum value) {
-  return EnumPair<Enum>::Of(value);
+  return static_cast<typename EnumPair<Enum>::Other>(EnumPair<Enum>::Known(static_cast<int>(value)));
 }
 
 template <typename Enum>
-typename EnumPair<Enum>::Other FromProto(Enum proto) {
-  return EnumPair<Enum>::Of(proto);
+Enum FromProto(typename EnumPair<Enum>::Other proto) {
+  return static_cast<Enum>(EnumPair<Enum>::Known(static_cast<int>(proto)));
 }
 
 }  // namespace ricochet

@@ -18,15 +18,9 @@ FitResponse FromProto(const v1::FitResponse& proto);
 template <>
 struct EnumPair<FitLoss> : SameNumbers<v1::FitLoss, v1::FitLoss_IsValid> {};
 template <>
-struct EnumPair<v1::FitLoss> : SameNumbers<FitLoss, v1::FitLoss_IsValid> {};
-template <>
 struct EnumPair<FitEndKind> : SameNumbers<v1::FitEnd::Kind, v1::FitEnd::Kind_IsValid> {};
 template <>
-struct EnumPair<v1::FitEnd::Kind> : SameNumbers<FitEndKind, v1::FitEnd::Kind_IsValid> {};
-template <>
 struct EnumPair<AuditLimit> : SameNumbers<v1::AuditLimit, v1::AuditLimit_IsValid> {};
-template <>
-struct EnumPair<v1::AuditLimit> : SameNumbers<AuditLimit, v1::AuditLimit_IsValid> {};
 
 }  // namespace ricochet
 

@@ -95,7 +95,8 @@ template <typename List, typename Number>
 void FromProto(const google::protobuf::RepeatedField<Number>& proto, List& list) {
   using Value = typename List::value_type;
   if constexpr (std::is_enum_v<Value>) {
-    for (const int number : proto) list.push_back(FromProto(static_cast<typename EnumPair<Value>::Other>(number)));
+    using Other = typename EnumPair<Value>::Other;
+    for (const int number : proto) list.push_back(FromProto<Value>(static_cast<Other>(number)));
   } else {
     // The pointers make the copy a memcpy, which the library's iterators prevent.
     list.assign(proto.data(), proto.data() + proto.size());
@@ -134,7 +135,7 @@ struct NumberField {
   }
   static Value Received(Number number) {
     if constexpr (std::is_enum_v<Value>)
-      return FromProto(number);
+      return FromProto<Value>(number);
     else
       return number;
   }

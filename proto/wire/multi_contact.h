@@ -13,18 +13,10 @@ template <>
 struct EnumPair<MultiContactMethod>
     : SameNumbers<v1::MultiContactRequest::Method, v1::MultiContactRequest::Method_IsValid> {};
 template <>
-struct EnumPair<v1::MultiContactRequest::Method>
-    : SameNumbers<MultiContactMethod, v1::MultiContactRequest::Method_IsValid> {};
-template <>
 struct EnumPair<MultiContactEnd> : SameNumbers<v1::AttainedOutcome::End, v1::AttainedOutcome::End_IsValid> {};
-template <>
-struct EnumPair<v1::AttainedOutcome::End> : SameNumbers<MultiContactEnd, v1::AttainedOutcome::End_IsValid> {};
 template <>
 struct EnumPair<MultiContactVerdict>
     : SameNumbers<v1::MultiContactAnswer::Verdict, v1::MultiContactAnswer::Verdict_IsValid> {};
-template <>
-struct EnumPair<v1::MultiContactAnswer::Verdict>
-    : SameNumbers<MultiContactVerdict, v1::MultiContactAnswer::Verdict_IsValid> {};
 
 v1::MultiContactScene ToProto(const MultiContactScene& scene);
 MultiContactScene FromProto(const v1::MultiContactScene& proto);

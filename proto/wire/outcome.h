@@ -25,43 +25,27 @@ void FromProto(const v1::Derivative& proto, Derivative& derivative);
 
 template <>
 struct EnumPair<Regime> : SameNumbers<v1::Regime, v1::Regime_IsValid> {};
-template <>
-struct EnumPair<v1::Regime> : SameNumbers<Regime, v1::Regime_IsValid> {};
 
 template <>
 struct EnumPair<Termination> : SameNumbers<v1::Termination, v1::Termination_IsValid> {};
-template <>
-struct EnumPair<v1::Termination> : SameNumbers<Termination, v1::Termination_IsValid> {};
 
 template <>
 struct EnumPair<EventKind> : SameNumbers<v1::Event::Kind, v1::Event::Kind_IsValid> {};
-template <>
-struct EnumPair<v1::Event::Kind> : SameNumbers<EventKind, v1::Event::Kind_IsValid> {};
 
 template <>
 struct EnumPair<AccuracyKind> : SameNumbers<v1::Accuracy::Kind, v1::Accuracy::Kind_IsValid> {};
-template <>
-struct EnumPair<v1::Accuracy::Kind> : SameNumbers<AccuracyKind, v1::Accuracy::Kind_IsValid> {};
 
 template <>
 struct EnumPair<LimitKind> : SameNumbers<v1::BrokenLimit::Kind, v1::BrokenLimit::Kind_IsValid> {};
-template <>
-struct EnumPair<v1::BrokenLimit::Kind> : SameNumbers<LimitKind, v1::BrokenLimit::Kind_IsValid> {};
 
 template <>
 struct EnumPair<DerivativeKind> : SameNumbers<v1::Derivative::Kind, v1::Derivative::Kind_IsValid> {};
-template <>
-struct EnumPair<v1::Derivative::Kind> : SameNumbers<DerivativeKind, v1::Derivative::Kind_IsValid> {};
 
 template <>
 struct EnumPair<Threshold> : SameNumbers<v1::Derivative::Threshold, v1::Derivative::Threshold_IsValid> {};
-template <>
-struct EnumPair<v1::Derivative::Threshold> : SameNumbers<Threshold, v1::Derivative::Threshold_IsValid> {};
 
 template <>
 struct EnumPair<NoteKind> : SameNumbers<v1::Note::Kind, v1::Note::Kind_IsValid> {};
-template <>
-struct EnumPair<v1::Note::Kind> : SameNumbers<NoteKind, v1::Note::Kind_IsValid> {};
 
 }  // namespace ricochet
 

@@ -14,30 +14,19 @@ void FromProto(const v1::Plan& proto, Plan& plan);
 
 template <>
 struct EnumPair<Effect> : SameNumbers<v1::Effect, v1::Effect_IsValid> {};
-template <>
-struct EnumPair<v1::Effect> : SameNumbers<Effect, v1::Effect_IsValid> {};
 
 template <>
 struct EnumPair<Model> : SameNumbers<v1::Model, v1::Model_IsValid> {};
-template <>
-struct EnumPair<v1::Model> : SameNumbers<Model, v1::Model_IsValid> {};
 
 template <>
 struct EnumPair<Arithmetic> : SameNumbers<v1::Arithmetic, v1::Arithmetic_IsValid> {};
-template <>
-struct EnumPair<v1::Arithmetic> : SameNumbers<Arithmetic, v1::Arithmetic_IsValid> {};
 
 template <>
 struct EnumPair<ArithmeticReason> : SameNumbers<v1::PlannedArithmetic::Reason, v1::PlannedArithmetic::Reason_IsValid> {
 };
-template <>
-struct EnumPair<v1::PlannedArithmetic::Reason> : SameNumbers<ArithmeticReason, v1::PlannedArithmetic::Reason_IsValid> {
-};
 
 template <>
 struct EnumPair<Decision> : SameNumbers<v1::PlannedEffect::Decision, v1::PlannedEffect::Decision_IsValid> {};
-template <>
-struct EnumPair<v1::PlannedEffect::Decision> : SameNumbers<Decision, v1::PlannedEffect::Decision_IsValid> {};
 
 }  // namespace ricochet
 

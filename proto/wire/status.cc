@@ -20,6 +20,10 @@
 #include "ricochet/v1/error_reason.pb.h"
 
 namespace ricochet {
+
+template <>
+struct EnumPair<ErrorReason> : SameNumbers<v1::ErrorReason, v1::ErrorReason_IsValid> {};
+
 namespace {
 
 constexpr char kDomain[] = "ricochet";
@@ -45,12 +49,6 @@ struct Error {
   std::optional<std::chrono::milliseconds> retry_delay;
 };
 
-v1::ErrorReason ToProto(ErrorReason reason) {
-  return SameNumbers<v1::ErrorReason, v1::ErrorReason_IsValid>::Of(reason);
-}
-
-ErrorReason FromProto(v1::ErrorReason proto) { return SameNumbers<ErrorReason, v1::ErrorReason_IsValid>::Of(proto); }
-
 google::rpc::ErrorInfo ErrorInfoOf(ErrorReason reason) {
   google::rpc::ErrorInfo info;
   info.set_reason(v1::ErrorReason_Name(ToProto(reason)).substr(sizeof(kReasonPrefix) - 1));
@@ -64,7 +62,7 @@ ErrorReason ReasonOf(const google::rpc::ErrorInfo& info) {
   if (!v1::ErrorReason_Parse(absl::StrCat(kReasonPrefix, info.reason()), &reason)) {
     return ErrorReason::kUnspecified;
   }
-  return FromProto(reason);
+  return FromProto<ErrorReason>(reason);
 }
 
 google::rpc::BadRequest ToProto(const std::vector<Violation>& violations) {

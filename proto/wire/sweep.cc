@@ -69,7 +69,7 @@ void FromProto(const v1::Tally& proto, Tally& tally) { Map<Tally>::Fields::Read(
 
 // The tallies that are not empty, each with the number that it has in its array. Tallies of numbers that this build
 // does not know are joined.
-template <typename Tallies, typename Message, typename Number>
+template <typename Enum, typename Tallies, typename Message, typename Number>
 struct TalliesField {
   Tallies SweepSummary::*member;
   const google::protobuf::RepeatedPtrField<Message>& (v1::SweepSummary::*get)() const;
@@ -89,14 +89,14 @@ struct TalliesField {
   void Read(const v1::SweepSummary& proto, SweepSummary& summary) const {
     for (const Message& entry : (proto.*get)()) {
       if (!entry.has_tally()) continue;
-      Tally& tally = (summary.*member)[static_cast<size_t>(FromProto((entry.*number)()))];
+      Tally& tally = (summary.*member)[static_cast<size_t>(FromProto<Enum>((entry.*number)()))];
       tally = Joined(tally, Received<Tally>(entry.tally()));
     }
   }
 };
 
-template <typename Tallies, typename Message, typename Number>
-static constexpr TalliesField<Tallies, Message, Number> TalliesEntry(
+template <typename Enum, typename Tallies, typename Message, typename Number>
+static constexpr TalliesField<Enum, Tallies, Message, Number> TalliesEntry(
     Tallies SweepSummary::*member, const google::protobuf::RepeatedPtrField<Message>& (v1::SweepSummary::*get)() const,
     google::protobuf::RepeatedPtrField<Message>* (v1::SweepSummary::*edit)(), Number (Message::*number)() const,
     void (Message::*set_number)(Number)) {
@@ -106,10 +106,10 @@ static constexpr TalliesField<Tallies, Message, Number> TalliesEntry(
 template <>
 struct Map<SweepSummary> : Between<SweepSummary, v1::SweepSummary> {
   using Fields = Entries<Entry(&T::points, &P::points, &P::set_points),
-                         TalliesEntry(&T::by_regime, &P::by_regime, &P::mutable_by_regime, &v1::RegimeTally::regime,
-                                      &v1::RegimeTally::set_regime),
-                         TalliesEntry(&T::by_model, &P::by_model, &P::mutable_by_model, &v1::ModelTally::model,
-                                      &v1::ModelTally::set_model),
+                         TalliesEntry<Regime>(&T::by_regime, &P::by_regime, &P::mutable_by_regime,
+                                              &v1::RegimeTally::regime, &v1::RegimeTally::set_regime),
+                         TalliesEntry<Model>(&T::by_model, &P::by_model, &P::mutable_by_model, &v1::ModelTally::model,
+                                             &v1::ModelTally::set_model),
                          Defaulted(&T::inadmissible, &P::has_inadmissible, &P::inadmissible, &P::mutable_inadmissible),
                          Entry(&T::elapsed_s, &P::has_elapsed_s, &P::elapsed_s, &P::set_elapsed_s)>;
 };
@@ -154,11 +154,13 @@ SweepChunk FromProto(const v1::SweepResponse& proto) {
   chunk.values.resize(proto.values().size() / sizeof(double));
   CopyDoubles(proto.values(), absl::MakeSpan(chunk.values));
   chunk.regimes.resize(proto.regimes().size());
-  std::transform(proto.regimes().begin(), proto.regimes().end(), chunk.regimes.begin(),
-                 [](char number) { return FromProto(static_cast<v1::Regime>(static_cast<unsigned char>(number))); });
+  std::transform(proto.regimes().begin(), proto.regimes().end(), chunk.regimes.begin(), [](char number) {
+    return FromProto<Regime>(static_cast<v1::Regime>(static_cast<unsigned char>(number)));
+  });
   chunk.statuses.resize(proto.statuses().size());
-  std::transform(proto.statuses().begin(), proto.statuses().end(), chunk.statuses.begin(),
-                 [](char number) { return FromProto(static_cast<v1::RowStatus>(static_cast<unsigned char>(number))); });
+  std::transform(proto.statuses().begin(), proto.statuses().end(), chunk.statuses.begin(), [](char number) {
+    return FromProto<RowStatus>(static_cast<v1::RowStatus>(static_cast<unsigned char>(number)));
+  });
   chunk.points_done = proto.points_done();
   chunk.points_total = proto.points_total();
   if (proto.has_tallies()) chunk.tallies = FromProto(proto.tallies());

@@ -19,13 +19,9 @@ void FromProto(const v1::Tally& proto, Tally& tally);
 inline bool IsCombination(int /*number*/) { return true; }
 template <>
 struct EnumPair<Combination> : SameNumbers<v1::SweepRequest::Combination, IsCombination> {};
-template <>
-struct EnumPair<v1::SweepRequest::Combination> : SameNumbers<Combination, IsCombination> {};
 
 template <>
 struct EnumPair<RowStatus> : SameNumbers<v1::RowStatus, v1::RowStatus_IsValid> {};
-template <>
-struct EnumPair<v1::RowStatus> : SameNumbers<RowStatus, v1::RowStatus_IsValid> {};
 
 // Points with regimes that this build does not know are counted together as kUnspecified.
 v1::SweepSummary ToProto(const SweepSummary& summary);
