@@ -122,8 +122,8 @@ absl::Status RunAudit(const AuditOptions& options) {
 }  // namespace
 
 void AddAudit(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("audit", "What observed impacts imply, and which physical limits they break");
-  const auto options = std::make_shared<AuditOptions>();
+  const auto [sub, options] = AddCommand<AuditOptions>(
+      app, "audit", "What observed impacts imply, and which physical limits they break", kExample, RunAudit, command);
   AddSceneOptions(*sub, options->scene);
   CLI::Option* rate =
       sub->add_option("--observed-rate", options->rate,
@@ -149,8 +149,6 @@ void AddAudit(CLI::App& app, Command& command) {
   AddPictureOptions(*sub, "the impulses in the friction cone, and each row beside its limits,", options->data.picture);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kRowFormats);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunAudit(*options); }; });
 }
 
 }  // namespace ricochet::cli

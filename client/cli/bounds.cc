@@ -235,8 +235,8 @@ absl::Status RunBounds(const BoundsOptions& options) {
 }  // namespace
 
 void AddBounds(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("bounds", "The values that the coefficients of an impact can take");
-  const auto options = std::make_shared<BoundsOptions>();
+  const auto [sub, options] = AddCommand<BoundsOptions>(
+      app, "bounds", "The values that the coefficients of an impact can take", kExample, RunBounds, command);
   AddSceneOptions(*sub, options->scene);
   sub->add_option("--range", options->ranges,
                   "An uncertain field of a planar system, of friction or of the surface; may be repeated")
@@ -247,8 +247,6 @@ void AddBounds(CLI::App& app, Command& command) {
   AddPictureOptions(*sub, "the ranges as bars", options->picture);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kMessageFormats);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunBounds(*options); }; });
 }
 
 }  // namespace ricochet::cli

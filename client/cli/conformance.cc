@@ -1,7 +1,6 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -153,16 +152,6 @@ absl::Status RunGrade(const ConformanceOptions& options) {
 
 constexpr std::array kListFormats = {Format::kText, Format::kJson};
 
-using Run = absl::Status (*)(const ConformanceOptions&);
-
-// Adds `ricochet conformance NAME`, which sets the command to `run`.
-CLI::App* AddOne(CLI::App& conformance, const char* name, const char* help, Run run,
-                 const std::shared_ptr<ConformanceOptions>& options, Command& command) {
-  CLI::App* sub = conformance.add_subcommand(name, help);
-  sub->callback([options, run, &command] { command = [options, run] { return run(*options); }; });
-  return sub;
-}
-
 void AddFamilies(CLI::App& sub, ConformanceOptions& options) {
   sub.add_option("--family", options.families, "The cases of this family alone; repeatable")
       ->type_name("NAME")
@@ -197,20 +186,19 @@ void AddConformance(CLI::App& app, Command& command) {
   CLI::App* conformance = app.add_subcommand("conformance", "A test that every simulator can take, and its grades");
   conformance->require_subcommand(1);
   conformance->footer(kExample);
-  const auto add = [&](const char* name, const char* help, Run run) {
-    const auto options = std::make_shared<ConformanceOptions>();
-    return std::pair(AddOne(*conformance, name, help, run, options, command), options.get());
-  };
-  const auto [list, list_options] = add("list", "List the cases: what each shows, and whence it is", RunList);
+  const auto [list, list_options] = AddCommand<ConformanceOptions>(
+      *conformance, "list", "List the cases: what each shows, and whence it is", kExample, RunList, command);
   AddFamilies(*list, *list_options);
   AddOutputOptions(*list, list_options->common, kListFormats);
-  const auto [show, show_options] =
-      add("show", "Print one case with its right answers, or all as impacts.json", RunShow);
+  const auto [show, show_options] = AddCommand<ConformanceOptions>(
+      *conformance, "show", "Print one case with its right answers, or all as impacts.json", kExample, RunShow,
+      command);
   show->add_option("CASE", show_options->name,
                    "A name of `ricochet conformance list`; without one, impacts.json is printed as it is");
   AddOutputOptions(*show, show_options->common, kListFormats);
-  const auto [grade, grade_options] =
-      add("grade", "Say which law the answers of a simulator obey, and which limits they break", RunGrade);
+  const auto [grade, grade_options] = AddCommand<ConformanceOptions>(
+      *conformance, "grade", "Say which law the answers of a simulator obey, and which limits they break", kExample,
+      RunGrade, command);
   AddGradeOptions(*grade, *grade_options);
   AddOutputOptions(*grade, grade_options->common, kMessageFormats);
 }

@@ -112,8 +112,8 @@ absl::Status RunCost(const CostOptions& options) {
 }  // namespace
 
 void AddCost(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("cost", "What accuracy costs in time, method by method");
-  const auto options = std::make_shared<CostOptions>();
+  const auto [sub, options] =
+      AddCommand<CostOptions>(app, "cost", "What accuracy costs in time, method by method", kExample, RunCost, command);
   AddAnySceneOptions(*sub, options->scene);
   sub->add_option("--time-limit", options->time_limit, "Time for the whole study (500ms, 10s, 1m), at most 60 s [3s]")
       ->type_name("TIME");
@@ -126,8 +126,6 @@ void AddCost(CLI::App& app, Command& command) {
       ->type_name("FILE.html");
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kMessageFormats);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunCost(*options); }; });
 }
 
 }  // namespace ricochet::cli

@@ -110,8 +110,8 @@ absl::Status RunExplore(const ExploreOptions& options) {
 }  // namespace
 
 void AddExplore(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("explore", "A page to explore an impact, and the service as HTTP with JSON");
-  const auto options = std::make_shared<ExploreOptions>();
+  const auto [sub, options] = AddCommand<ExploreOptions>(
+      app, "explore", "A page to explore an impact, and the service as HTTP with JSON", kExample, RunExplore, command);
   AddSceneOptions(*sub, options->scene);
   sub->add_option("--listen", options->listen, "Where to serve; port 0 lets the system choose")
       ->type_name("ADDRESS:PORT")
@@ -119,8 +119,6 @@ void AddExplore(CLI::App& app, Command& command) {
   sub->add_flag("--insecure", options->insecure,
                 "Allow an address that other hosts can reach; nothing is encrypted, not even the token");
   AddServerOptions(*sub, options->common);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunExplore(*options); }; });
 }
 
 }  // namespace ricochet::cli

@@ -99,8 +99,8 @@ absl::Status RunFit(const FitOptions& options) {
 }  // namespace
 
 void AddFit(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("fit", "What measured impacts tell about numbers of the scene, and how well");
-  const auto options = std::make_shared<FitOptions>();
+  const auto [sub, options] = AddCommand<FitOptions>(
+      app, "fit", "What measured impacts tell about numbers of the scene, and how well", kExample, RunFit, command);
   AddSceneOptions(*sub, options->scene);
   MarkFile(FileUse::kRead,
            sub->add_option("--data", options->data.file,
@@ -137,8 +137,6 @@ void AddFit(CLI::App& app, Command& command) {
                     options->picture);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kMessageFormats);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunFit(*options); }; });
 }
 
 }  // namespace ricochet::cli

@@ -2,7 +2,6 @@
 
 #include <CLI/App.hpp>
 #include <cstdio>
-#include <memory>
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/input/make_solver.h"
@@ -48,14 +47,12 @@ absl::Status RunHealth(const HealthOptions& options) {
 }  // namespace
 
 void AddHealth(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("health", "Ask whether a server takes calls");
-  const auto options = std::make_shared<HealthOptions>();
+  const auto [sub, options] =
+      AddCommand<HealthOptions>(app, "health", "Ask whether a server takes calls", kExample, RunHealth, command);
   AddServerOptions(*sub, options->common);
   sub->add_option("--service", options->service, "Full name of the service; empty for the server as a whole")
       ->capture_default_str()
       ->type_name("NAME");
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunHealth(*options); }; });
 }
 
 }  // namespace ricochet::cli

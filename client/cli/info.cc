@@ -122,12 +122,10 @@ absl::Status RunInfo(const InfoOptions& options) {
 }  // namespace
 
 void AddInfo(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("info", "The engine, what it can compute, and its limits");
-  const auto options = std::make_shared<InfoOptions>();
+  const auto [sub, options] = AddCommand<InfoOptions>(app, "info", "The engine, what it can compute, and its limits",
+                                                      kExample, RunInfo, command);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kMessageFormats);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunInfo(*options); }; });
 }
 
 }  // namespace ricochet::cli

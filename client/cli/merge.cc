@@ -1,6 +1,5 @@
 #include <CLI/App.hpp>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -139,8 +138,8 @@ absl::Status RunMerge(const MergeOptions& options) {
 }  // namespace
 
 void AddMerge(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("merge", "Put the shards of a sweep together");
-  const auto options = std::make_shared<MergeOptions>();
+  const auto [sub, options] =
+      AddCommand<MergeOptions>(app, "merge", "Put the shards of a sweep together", kExample, RunMerge, command);
   sub->add_option("file", options->file, "The -o FILE of the shards, which are the files FILE.shard-I-of-N")
       ->type_name("FILE")
       ->required();
@@ -149,8 +148,6 @@ void AddMerge(CLI::App& app, Command& command) {
       "Before anything is written, read every shard and compare it with the checksum of its manifest, and say "
       "what was found");
   AddOutputOptions(*sub, options->common, kSweepFormats);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunMerge(*options); }; });
 }
 
 }  // namespace ricochet::cli

@@ -129,8 +129,9 @@ absl::Status RunMultiContact(const MultiContactOptions& options) {
 }  // namespace
 
 void AddMultiContact(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("multicontact", "What several contacts at once can do, and whether order matters");
-  const auto options = std::make_shared<MultiContactOptions>();
+  const auto [sub, options] = AddCommand<MultiContactOptions>(
+      app, "multicontact", "What several contacts at once can do, and whether order matters", kExample, RunMultiContact,
+      command);
   MarkFile(FileUse::kRead,
            sub->add_option("--scene", options->scene,
                            "A ricochet.v1.MultiContactScene as JSON or textproto; - for standard input"))
@@ -156,8 +157,6 @@ void AddMultiContact(CLI::App& app, Command& command) {
                     options->picture);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kMessageFormats);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunMultiContact(*options); }; });
 }
 
 }  // namespace ricochet::cli

@@ -1,7 +1,6 @@
 #include <CLI/App.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,8 +60,8 @@ absl::Status RunPlot(PlotOptions options) {
 }  // namespace
 
 void AddPlot(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("plot", "Draw a file that sweep or merge wrote");
-  const auto options = std::make_shared<PlotOptions>();
+  const auto [sub, options] =
+      AddCommand<PlotOptions>(app, "plot", "Draw a file that sweep or merge wrote", kExample, RunPlot, command);
   MarkFile(FileUse::kRead,
            sub->add_option("file", options->file, "A sweep as csv, json, jsonl, npy or netcdf; the content says which"))
       ->type_name("FILE")
@@ -79,8 +78,6 @@ void AddPlot(CLI::App& app, Command& command) {
   AddLookOptions(*sub, options->picture);
   AddAxisOptions(*sub, options->picture);
   AddKindOption(*sub, options->picture);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunPlot(*options); }; });
 }
 
 }  // namespace ricochet::cli

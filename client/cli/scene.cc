@@ -5,9 +5,9 @@
 
 #include <CLI/App.hpp>
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -189,17 +189,10 @@ constexpr std::array kSchemaFormats = {Format::kJson};
 
 using Run = absl::Status (*)(const SceneCommand&);
 
-// A subcommand and its options, which live as long as it does.
-struct Added {
-  CLI::App* app;
-  SceneCommand* options;
-};
-
 // Adds `ricochet scene NAME`, which sets the command to `run`.
-Added AddOne(CLI::App& scene, const char* name, const char* help, Run run, absl::Span<const Format> formats,
-             Command& command) {
-  CLI::App* sub = scene.add_subcommand(name, help);
-  const auto options = std::make_shared<SceneCommand>();
+std::pair<CLI::App*, SceneCommand*> AddOne(CLI::App& scene, const char* name, const char* help, Run run,
+                                           absl::Span<const Format> formats, Command& command) {
+  const auto [sub, options] = AddCommand<SceneCommand>(scene, name, help, kExample, run, command);
   CommonOptions& common = options->common;
   if (formats.size() > 1) {
     const auto choose_json = [&common] {
@@ -210,8 +203,7 @@ Added AddOne(CLI::App& scene, const char* name, const char* help, Run run, absl:
   }
   AddOutputOptions(*sub, common, formats);
   if (formats.size() > 1) sub->get_option("--json")->excludes(sub->get_option("--format"));
-  sub->callback([options, run, &command] { command = [options, run] { return run(*options); }; });
-  return {sub, options.get()};
+  return {sub, options};
 }
 
 }  // namespace
@@ -224,25 +216,25 @@ void AddScene(CLI::App& app, Command& command) {
     return AddOne(*scene, name, help, run, formats, command);
   };
   add("list", "List the systems that can strike", RunList, kListFormats);
-  const Added one = add("template", "Print a commented scene to start from", RunTemplate, kSceneFormats);
-  one.app->add_option("TEMPLATE", one.options->system, "A name of `ricochet scene list`")->required();
-  const Added print = add("print", "Print the scene of a file or of flags", RunPrint, kSceneFormats);
-  AddAnySceneOptions(*print.app, print.options->scene);
-  const Added schema = add(
+  const auto [one, one_options] = add("template", "Print a commented scene to start from", RunTemplate, kSceneFormats);
+  one->add_option("TEMPLATE", one_options->system, "A name of `ricochet scene list`")->required();
+  const auto [print, print_options] = add("print", "Print the scene of a file or of flags", RunPrint, kSceneFormats);
+  AddAnySceneOptions(*print, print_options->scene);
+  const auto [schema, schema_options] = add(
       "schema", "Print the JSON Schema of a scene, draft 2020-12",
       [](const SceneCommand& all) {
         return Write(all, all.several_contacts ? MultiContactSceneSchema() : SceneSchema());
       },
       kSchemaFormats);
-  schema.app->add_flag("--multicontact", schema.options->several_contacts, "That of a scene with several contacts");
-  const Added fields =
+  schema->add_flag("--multicontact", schema_options->several_contacts, "That of a scene with several contacts");
+  const auto [fields, fields_options] =
       add("fields", "List the numbers of a scene with units, ranges and meanings", RunFields, kListFormats);
-  AddSceneOptions(*fields.app, fields.options->scene);
-  const Added columns = add(
+  AddSceneOptions(*fields, fields_options->scene);
+  const auto [columns, columns_options] = add(
       "columns",
       "List the numbers of an answer, with the equations of the paper in brackets; without a scene those of a pendulum",
       RunColumns, kListFormats);
-  AddSceneOptions(*columns.app, columns.options->scene);
+  AddSceneOptions(*columns, columns_options->scene);
 }
 
 }  // namespace ricochet::cli

@@ -166,8 +166,8 @@ absl::Status RunSolve(const SolveOptions& options) {
 }  // namespace
 
 void AddSolve(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("solve", "Compute one impact: velocities, impulses, coefficients, works");
-  const auto options = std::make_shared<SolveOptions>();
+  const auto [sub, options] = AddCommand<SolveOptions>(
+      app, "solve", "Compute one impact: velocities, impulses, coefficients, works", kExample, RunSolve, command);
   AddSceneOptions(*sub, options->scene);
   AddMechanismOptions(*sub, options->scene);
   sub->add_flag("--both-ends", options->both_ends,
@@ -209,8 +209,6 @@ void AddSolve(CLI::App& app, Command& command) {
       ->allow_extra_args(false);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kRowFormats);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunSolve(*options); }; });
 }
 
 }  // namespace ricochet::cli

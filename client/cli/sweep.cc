@@ -333,8 +333,8 @@ void AddGridOptions(CLI::App& sub, SweepOptions& options) {
 }  // namespace
 
 void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& command) {
-  CLI::App* sub = app.add_subcommand("sweep", "Compute many impacts over a grid");
-  const auto options = std::make_shared<SweepOptions>();
+  const auto [sub, options] =
+      AddCommand<SweepOptions>(app, "sweep", "Compute many impacts over a grid", kExample, RunSweep, command);
   options->arguments = std::move(arguments);
   AddSceneOptions(*sub, options->scene);
   AddGridOptions(*sub, *options);
@@ -353,8 +353,6 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   sub->add_flag("--resume", options->resume,
                 "Go on with FILE.part, which a run with -o FILE as csv, json, jsonl or npy left when it was ended");
   AddShardOptions(*sub, options->shard);
-  sub->footer(kExample);
-  sub->callback([options, &command] { command = [options] { return RunSweep(*options); }; });
 }
 
 }  // namespace ricochet::cli

@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
@@ -11,6 +12,14 @@
 #include "client/cli/text/table.h"
 
 namespace ricochet::cli {
+
+CLI::App* AddSubcommand(CLI::App& app, const char* name, const char* help, const char* example, Command run,
+                        Command& command) {
+  CLI::App* sub = app.add_subcommand(name, help);
+  sub->footer(example);
+  sub->callback([run = std::move(run), &command] { command = run; });
+  return sub;
+}
 
 void AddServerOptions(CLI::App& app, CommonOptions& options) { AddConnectionOptions(app, options.connection); }
 

@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
@@ -22,6 +24,19 @@ namespace ricochet::cli {
 
 // The work of a subcommand. Parsing the command line sets it, and main then runs it.
 using Command = std::function<absl::Status()>;
+
+// Adds a subcommand, with `example` below its help, that sets `command` to `run`.
+CLI::App* AddSubcommand(CLI::App& app, const char* name, const char* help, const char* example, Command run,
+                        Command& command);
+
+// The same with options of its own, which live as long as it does.
+template <typename Options>
+std::pair<CLI::App*, Options*> AddCommand(CLI::App& app, const char* name, const char* help, const char* example,
+                                          std::function<absl::Status(const Options&)> run, Command& command) {
+  const auto options = std::make_shared<Options>();
+  const auto run_with_options = [options, run = std::move(run)] { return run(*options); };
+  return {AddSubcommand(app, name, help, example, run_with_options, command), options.get()};
+}
 
 struct CommonOptions {
   ConnectionInput connection;
