@@ -222,7 +222,7 @@ CostStream Client::DoCost(const CostRequest& request, const CallOptions& options
       [&](grpc::ClientContext* context) {
         return connection_->stubs[connection_->preferred.get()]->Cost(context, ToProto(request));
       },
-      CostChecker(), connection_->options.sweep_deadline, options);
+      connection_->options.sweep_deadline, options);
   return Connection::StreamOf<CostStream>(connection_, std::move(reader));
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/call_context.h"
 #include "proto/wire/cost.h"
 
 namespace ricochet {
@@ -69,6 +70,21 @@ absl::StatusOr<CostChunk> WholeStudy(CostStream parts, const std::function<void(
 absl::Status CostChecker::CheckEnd() const {
   if (summarised_) return absl::OkStatus();
   return absl::DataLossError(absl::StrCat("the study of cost ended at row ", rows_, " without its summary"));
+}
+
+std::optional<absl::StatusOr<CostChunk>> CostReader::Next() {
+  // Once the caller has asked to stop, chunks that had already arrived are dropped.
+  if (!call_.Read(message_)) return End(call_.Finish());
+  if (IsStopped(options_) && !message_.has_summary()) return End(call_.Cancel());
+  return checker_.Accept(message_);
+}
+
+std::optional<absl::StatusOr<CostChunk>> CostReader::End(const absl::Status& status) {
+  const absl::Status complete = checker_.CheckEnd();
+  if (IsStopped(options_) && !complete.ok()) return StoppedByCaller();
+  if (!status.ok() && !IsStopped(options_)) return status;
+  if (!complete.ok()) return complete;
+  return std::nullopt;
 }
 
 }  // namespace ricochet

@@ -3,12 +3,17 @@
 #ifndef RICOCHET_CLIENT_COST_READER_H_
 #define RICOCHET_CLIENT_COST_READER_H_
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 
+#include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "client/stream_reader.h"
+#include "client/stream_call.h"
+#include "ricochet/call_options.h"
 #include "ricochet/cost.h"
 #include "ricochet/solver.h"
 #include "ricochet/v1/cost.pb.h"
@@ -36,7 +41,30 @@ void AddPart(CostChunk part, CostChunk& study);
 // the last has no summary.
 absl::StatusOr<CostChunk> WholeStudy(CostStream parts, const std::function<void(const CostChunk&)>& see);
 
-using CostReader = StreamReader<v1::CostResponse, CostChunk, CostChecker>;
+// Reads one stream of messages; the last one, and no other, has a summary.
+//
+// Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
+class CostReader {
+ public:
+  using Call = StreamCall<v1::CostResponse>::Reader;
+
+  // Starts the call by `start`, which receives the context and returns the stream. The call ends when `options` say so,
+  // or `deadline` from now.
+  CostReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start,
+             std::optional<std::chrono::milliseconds> deadline, const CallOptions& options)
+      : options_(options), call_(start, deadline, options) {}
+
+  // Returns the next chunk, an error, or nothing at the end of the stream; it serves as a ResultStream::Source.
+  std::optional<absl::StatusOr<CostChunk>> Next();
+
+ private:
+  std::optional<absl::StatusOr<CostChunk>> End(const absl::Status& status);
+
+  CostChecker checker_;
+  const CallOptions options_;
+  StreamCall<v1::CostResponse> call_;
+  v1::CostResponse message_;
+};
 
 }  // namespace ricochet
 
