@@ -3,9 +3,9 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 #include "absl/strings/match.h"
@@ -22,36 +22,13 @@ using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::OneofDescriptor;
 
-// Iterates over a text and counts the characters that the parser has read.
-class Counting {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  Counting(const char* at, size_t* read) : at_(at), read_(read) {}
-  reference operator*() const { return *at_; }
-  Counting& operator++() {
-    ++at_;
-    ++*read_;
-    return *this;
-  }
-  bool operator==(const Counting& other) const { return at_ == other.at_; }
-  bool operator!=(const Counting& other) const { return at_ != other.at_; }
-
- private:
-  const char* at_;
-  size_t* read_;
-};
-
 // Follows the parser through a text, with the field of the proto at hand.
 class Checker : public nlohmann::json_sax<nlohmann::json> {
  public:
-  Checker(const std::string& text, const Descriptor& type) : text_(text), root_(&type) {}
+  // The parser reads the text from `buffer`.
+  Checker(const std::string& text, const Descriptor& type, std::streambuf& buffer)
+      : text_(text), root_(&type), buffer_(buffer) {}
 
-  size_t* read() { return &read_; }
   const std::string& error() const { return error_; }
 
   // Null means that a field is not set. One that is always set would silently become 0, such as the friction of a
@@ -156,7 +133,7 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
 
   // Appends the place that the parser has reached.
   bool Fail(const std::string& message) {
-    const std::string before = text_.substr(0, std::min(read_, text_.size()));
+    const std::string before = text_.substr(0, static_cast<size_t>(buffer_.pubseekoff(0, std::ios::cur, std::ios::in)));
     const size_t start = before.rfind('\n');
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const size_t column = start == std::string::npos ? before.size() : before.size() - start - 1;
@@ -210,7 +187,7 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
 
   const std::string& text_;
   const Descriptor* root_;
-  size_t read_ = 0;
+  std::streambuf& buffer_;
   std::vector<Level> levels_;
   std::string error_;
 };
@@ -225,9 +202,9 @@ std::string FieldHint(const Descriptor& type, const std::string& name) {
 }
 
 std::string ExplainJson(const std::string& text, const Descriptor& type) {
-  Checker checker(text, type);
-  const char* const end = text.data() + text.size();
-  nlohmann::json::sax_parse(Counting(text.data(), checker.read()), Counting(end, checker.read()), &checker);
+  std::istringstream stream(text);
+  Checker checker(text, type, *stream.rdbuf());
+  nlohmann::json::sax_parse(stream, &checker);
   return checker.error();
 }
 
