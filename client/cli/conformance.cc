@@ -15,7 +15,6 @@
 #include "client/cli/input/scene_input.h"
 #include "client/cli/io/output.h"
 #include "client/cli/subcommands.h"
-#include "client/cli/text/json_text.h"
 #include "client/cli/text/number_input.h"
 #include "client/cli/text/table.h"
 #include "core/base/decimal.h"
@@ -68,16 +67,7 @@ absl::Status RunList(const ConformanceOptions& options) {
   std::string json = "[";
   for (const ConformanceCase* one : *asked) {
     table.Add({one->name, one->family, one->shows});
-    const std::pair<const char*, const std::string*> members[] = {{"\"name\":", &one->name},
-                                                                  {"\"family\":", &one->family},
-                                                                  {"\"shows\":", &one->shows},
-                                                                  {"\"source\":", &one->source}};
-    json += json.size() > 1 ? ",\n" : "\n";
-    for (const auto& [key, text] : members) {
-      absl::StrAppend(&json, text == &one->name ? "{" : ",", key);
-      AppendJson(*text, json);
-    }
-    json += "}";
+    absl::StrAppend(&json, json.size() > 1 ? ",\n" : "\n", one->summary);
   }
   return WriteOutput(options.common, options.common.format == Format::kJson ? json + "\n]\n" : table.Render(0));
 }
@@ -116,8 +106,7 @@ absl::Status RunShow(const ConformanceOptions& options) {
   if (options.name.empty()) return WriteOutput(options.common, ConformanceCasesJson());
   const absl::StatusOr<const ConformanceCase*> one = FindConformanceCase(options.name, "CASE");
   if (!one.ok()) return one.status();
-  return WriteOutput(options.common,
-                     options.common.format == Format::kJson ? ConformanceCaseJson(**one) : CaseText(**one));
+  return WriteOutput(options.common, options.common.format == Format::kJson ? (*one)->json : CaseText(**one));
 }
 
 absl::StatusOr<Grade> MakeGrade(const ConformanceOptions& options) {

@@ -16,11 +16,6 @@ namespace {
 using Eigen::VectorXd;
 using Json = nlohmann::ordered_json;
 
-const Json& Document() {
-  static const Json* const document = new Json(Json::parse(kConformanceCases));
-  return *document;
-}
-
 VectorXd VectorOf(const Json& json) {
   const std::vector<double> numbers = json;
   return VectorXd::Map(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
@@ -38,6 +33,10 @@ ConformanceCase FromJson(const Json& json) {
       .family = json["family"],
       .shows = json["shows"],
       .source = json["source"],
+      .json = json.dump(2) + "\n",
+      .summary =
+          Json{{"name", json["name"]}, {"family", json["family"]}, {"shows", json["shows"]}, {"source", json["source"]}}
+              .dump(),
       .dimension = json["dimension"],
       .friction = VectorXd(json["contacts"].size()),
       .coefficient = VectorXd(json["contacts"].size()),
@@ -61,8 +60,9 @@ ConformanceCase FromJson(const Json& json) {
 }
 
 ConformanceCases ReadAll() {
-  ConformanceCases all{.version = Document()["version"], .fingerprint = Document()["fingerprint"]};
-  for (const Json& json : Document()["cases"]) all.cases.push_back(FromJson(json));
+  const Json document = Json::parse(kConformanceCases);
+  ConformanceCases all{.version = document["version"], .fingerprint = document["fingerprint"]};
+  for (const Json& json : document["cases"]) all.cases.push_back(FromJson(json));
   return all;
 }
 
@@ -84,12 +84,5 @@ absl::StatusOr<const ConformanceCase*> FindConformanceCase(const std::string& na
 }
 
 std::string ConformanceCasesJson() { return std::string(kConformanceCases); }
-
-std::string ConformanceCaseJson(const ConformanceCase& one) {
-  for (const Json& json : Document()["cases"]) {
-    if (json["name"] == one.name) return json.dump(2) + "\n";
-  }
-  return "";
-}
 
 }  // namespace ricochet::cli

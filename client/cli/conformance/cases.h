@@ -21,6 +21,8 @@ struct RightAnswer {
 // An impact as M, J and q' before; `frame` moves with the surface, and is 0 where that is at rest.
 struct ConformanceCase {
   std::string name, family, shows, source;
+  std::string json;                       // The case as conformance/impacts.json states it.
+  std::string summary;                    // The four texts above as JSON, in one line.
   int dimension = 0;                      // Numbers of each contact: 2 in a plane, 3 in space.
   Eigen::VectorXd friction, coefficient;  // One of both for each contact.
   std::vector<std::string> coordinates;
@@ -43,8 +45,6 @@ const ConformanceCases& AllConformanceCases();
 // Returns the case of this name. Errors: INVALID_ARGUMENT with the nearest name; `what` names the input.
 absl::StatusOr<const ConformanceCase*> FindConformanceCase(const std::string& name, const std::string& what);
 
-// Returns the case as conformance/impacts.json states it.
-std::string ConformanceCaseJson(const ConformanceCase& one);
 // Returns conformance/impacts.json, byte for byte.
 std::string ConformanceCasesJson();
 
