@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_split.h"
 #include "client/cli/audit_rows.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/make_solver.h"
@@ -41,16 +40,6 @@ struct AuditOptions {
   std::optional<std::string> rate, velocity, uncertainty;
   AuditDataOptions data;
 };
-
-absl::StatusOr<std::vector<double>> ParseNumbers(const std::string& text, const std::string& what) {
-  std::vector<double> numbers;
-  for (const auto part : absl::StrSplit(text, ',')) {
-    const absl::StatusOr<double> number = ParseNumber(std::string(part), what);
-    if (!number.ok()) return number.status();
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
 
 absl::StatusOr<Observed> ReadObserved(const AuditOptions& options) {
   if (options.rate.has_value()) {

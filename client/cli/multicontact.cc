@@ -41,16 +41,6 @@ struct MultiContactOptions {
   PictureOptions picture;
 };
 
-absl::StatusOr<std::vector<double>> ReadNumbers(const std::string& text, const std::string& what) {
-  std::vector<double> numbers;
-  for (const auto piece : absl::StrSplit(text, ',')) {
-    const absl::StatusOr<double> number = ParseNumber(std::string(piece), what);
-    if (!number.ok()) return number.status();
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
-
 absl::StatusOr<MultiContactMethod> ReadMethod(const std::string& name) {
   constexpr std::array kMethods = {std::pair("orders", MultiContactMethod::kOrders),
                                    std::pair("springs", MultiContactMethod::kSprings),
@@ -64,7 +54,7 @@ absl::StatusOr<MultiContactMethod> ReadMethod(const std::string& name) {
 absl::StatusOr<LinearOutput> ReadOutput(const std::string& text) {
   const size_t equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) return InputError("--function", text, "be NAME=NUMBER,NUMBER,...");
-  absl::StatusOr<std::vector<double>> coefficients = ReadNumbers(text.substr(equals + 1), "--function");
+  absl::StatusOr<std::vector<double>> coefficients = ParseNumbers(text.substr(equals + 1), "--function");
   if (!coefficients.ok()) return coefficients.status();
   return LinearOutput{.name = text.substr(0, equals), .coefficients = *std::move(coefficients)};
 }
@@ -95,7 +85,7 @@ absl::StatusOr<MultiContactRequest> ReadRequest(const MultiContactOptions& optio
     request.methods.push_back(*method);
   }
   for (const std::string& text : options.states) {
-    absl::StatusOr<std::vector<double>> velocity = ReadNumbers(text, "--state");
+    absl::StatusOr<std::vector<double>> velocity = ParseNumbers(text, "--state");
     if (!velocity.ok()) return velocity.status();
     request.states.push_back({.velocity = *std::move(velocity)});
   }

@@ -31,16 +31,6 @@ absl::StatusOr<Values> ParseSpace(const std::vector<std::string>& parts, const s
   return Values(Space{*start, *stop, *count});
 }
 
-absl::StatusOr<Values> ParseList(const std::string& text, const std::string& what, Spelling spelling) {
-  ListValues list;
-  for (const std::string& part : Split(text, ',')) {
-    const absl::StatusOr<double> value = ParseNumber(part, what, spelling);
-    if (!value.ok()) return value.status();
-    list.values.push_back(*value);
-  }
-  return Values(std::move(list));
-}
-
 absl::StatusOr<Values> ParseValues(const std::string& text, const std::string& what, Spelling spelling) {
   const std::vector<std::string> parts = Split(text, ':');
   if (parts[0] == "lin") return ParseSpace<Linspace>(parts, what, spelling);
@@ -48,7 +38,9 @@ absl::StatusOr<Values> ParseValues(const std::string& text, const std::string& w
   if (parts.size() > 1) {
     return InputError(what, text, "be a list such as 0.1,1/3 or lin:START:STOP:COUNT or log:START:STOP:COUNT");
   }
-  return ParseList(text, what, spelling);
+  absl::StatusOr<std::vector<double>> list = ParseNumbers(text, what, spelling);
+  if (!list.ok()) return list.status();
+  return Values(ListValues{*std::move(list)});
 }
 
 }  // namespace

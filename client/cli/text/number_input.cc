@@ -6,6 +6,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
 #include "ricochet/error.h"
@@ -62,6 +63,16 @@ absl::StatusOr<double> ParseNumber(const std::string& text, const std::string& w
   const std::string rule = ReadNumber(text, spelling, value);
   if (rule.empty()) return value;
   return InputError(what, text, rule);
+}
+
+absl::StatusOr<std::vector<double>> ParseNumbers(const std::string& text, const std::string& what, Spelling spelling) {
+  std::vector<double> numbers;
+  for (const auto part : absl::StrSplit(text, ',')) {
+    const absl::StatusOr<double> number = ParseNumber(std::string(part), what, spelling);
+    if (!number.ok()) return number.status();
+    numbers.push_back(*number);
+  }
+  return numbers;
 }
 
 absl::StatusOr<int64_t> ParseCount(const std::string& text, const std::string& what) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 
@@ -22,6 +23,9 @@ std::string ReadNumber(const std::string& text, Spelling spelling, double& value
 // Reads a number. `what` names the input in the error. Errors: INVALID_ARGUMENT, here and below.
 absl::StatusOr<double> ParseNumber(const std::string& text, const std::string& what,
                                    Spelling spelling = Spelling::kNumber);
+// Reads numbers between commas.
+absl::StatusOr<std::vector<double>> ParseNumbers(const std::string& text, const std::string& what,
+                                                 Spelling spelling = Spelling::kNumber);
 
 // Reads a whole number of at most 2^53: "1000", "1e6".
 absl::StatusOr<int64_t> ParseCount(const std::string& text, const std::string& what);
