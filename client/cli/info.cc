@@ -14,6 +14,7 @@
 #include "client/cli/input/make_solver.h"
 #include "client/cli/subcommands.h"
 #include "client/cli/text/enum_names.h"
+#include "proto/wire/plan.h"
 
 namespace ricochet::cli {
 namespace {
@@ -45,7 +46,7 @@ std::string Features(const InfoResponse& info, const char* separator) {
 
 std::string Models(const InfoResponse& info, const char* separator) {
   return absl::StrJoin(info.models, separator,
-                       [](std::string* out, Model model) { *out += absl::AsciiStrToLower(ModelName(model)); });
+                       [](std::string* out, Model model) { *out += absl::AsciiStrToLower(EnumName(model)); });
 }
 
 std::vector<Row> RequestLimits(const Limits& limits) {

@@ -8,7 +8,6 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "absl/strings/strip.h"
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
@@ -21,10 +20,6 @@ namespace {
 
 constexpr size_t kWidth = 100;
 constexpr size_t kGap = 2;
-
-std::string StatusName(CostStatus status) {
-  return std::string(absl::StripPrefix(v1::CostRow::Status_Name(ToProto(status)), "STATUS_"));
-}
 
 // Breaks a text into lines of at most kWidth characters. The first line starts with `indent` spaces, the others with
 // two more.
@@ -109,8 +104,8 @@ CsvRow CsvRowOf(const CostChunk& study, size_t index, bool on_front) {
   CsvRow csv;
   csv.Integer("index", index);
   csv.Quoted("name", row.name);
-  csv.Words("status", StatusName(row.status));
-  csv.Words("method.model", ModelName(row.method.model));
+  csv.Words("status", EnumName(row.status));
+  csv.Words("method.model", EnumName(row.method.model));
   csv.Words("method.arithmetic", absl::AsciiStrToUpper(ArithmeticText(row.method.arithmetic)));
   csv.Number("method.tolerance", row.method.tolerance);
   csv.Integer("method.digits", row.method.digits);

@@ -7,6 +7,7 @@
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
+#include "proto/wire/outcome.h"
 
 namespace ricochet::cli {
 namespace {
@@ -84,16 +85,16 @@ std::string DerivativesCsv(const std::vector<Derivative>& derivatives) {
     CsvRow& row = rows.emplace_back();
     row.Words("of", d.of);
     row.Words("by", d.by);
-    row.Words("kind", KindName(d.kind));
+    row.Words("kind", EnumName(d.kind));
     row.Number("value", d.value);
     row.Number("from_below", d.from_below);
     row.Number("from_above", d.from_above);
     row.Number("error", d.error);
-    row.Words("threshold", d.kind == DerivativeKind::kTwoSided ? "" : ThresholdName(d.threshold));
+    row.Words("threshold", d.kind == DerivativeKind::kTwoSided ? "" : EnumName(d.threshold));
     row.Quoted("reason", d.reason);
     for (const auto& [name, near] : {std::pair("below", d.below), std::pair("above", d.above)}) {
       row.Number(absl::StrCat("distance_", name), near.has_value() ? std::optional(near->distance) : std::nullopt);
-      row.Words(absl::StrCat("threshold_", name), near.has_value() ? ThresholdName(near->threshold) : "");
+      row.Words(absl::StrCat("threshold_", name), near.has_value() ? EnumName(near->threshold) : "");
     }
   }
   return CsvOf(rows);

@@ -10,6 +10,7 @@
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
+#include "proto/wire/fit.h"
 
 namespace ricochet::cli {
 namespace {
@@ -119,9 +120,9 @@ std::string FitCsv(const FitResponse& response) {
     row.Truth("seen", unknown.seen);
     row.Number("sigma", unknown.sigma);
     row.Number("low.value", unknown.low.value);
-    row.Words("low.kind", FitEndName(unknown.low.kind));
+    row.Words("low.kind", EnumName(unknown.low.kind));
     row.Number("high.value", unknown.high.value);
-    row.Words("high.kind", FitEndName(unknown.high.kind));
+    row.Words("high.kind", EnumName(unknown.high.kind));
   }
   return CsvOf(rows);
 }

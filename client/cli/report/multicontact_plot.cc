@@ -11,6 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/report/multicontact_report.h"
+#include "client/cli/text/enum_names.h"
 #include "proto/wire/multi_contact.h"
 
 namespace ricochet::cli {
@@ -126,10 +127,7 @@ Panel StiffnessPanel(const MultiContactRequest& request, const MultiContactAnswe
 
 Plot MultiContactPlot(const MultiContactRequest& request, const MultiContactResponse& response) {
   const MultiContactAnswer& answer = response.answers.front();
-  Plot plot = {.title = absl::StrCat(
-                   "Several contacts: ",
-                   v1::MultiContactAnswer::Verdict_Name(ToProto(answer.verdict)).substr(sizeof("VERDICT_") - 1)),
-               .panels = {}};
+  Plot plot = {.title = absl::StrCat("Several contacts: ", EnumName(answer.verdict)), .panels = {}};
   const auto* const free = std::get_if<FreeBodies>(&request.scene.system);
   if (free != nullptr && free->bodies.front().position_m.size() == 2) {
     plot.panels.push_back(StrikePanel(*free, request.scene.contacts));

@@ -10,8 +10,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "absl/strings/strip.h"
 #include "client/cli/io/csv_row.h"
+#include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
 #include "core/types/multi_contact.h"
 #include "proto/wire/multi_contact.h"
@@ -22,10 +22,6 @@ namespace {
 constexpr char kSprings[] = "springs";
 // A table of text has no more outcomes than these.
 constexpr size_t kMostRows = 12;
-
-std::string EndName(MultiContactEnd end) {
-  return std::string(absl::StripPrefix(v1::AttainedOutcome::End_Name(ToProto(end)), "END_"));
-}
 
 std::string EndText(MultiContactEnd end) {
   switch (end) {
@@ -230,7 +226,7 @@ class CsvTable {
     row.Quoted("outcome", name);
     row.Number("relative_stiffness", stiffness);
     const bool is_outcome = outcome.end != MultiContactEnd::kUnspecified;
-    row.Words("end", is_outcome ? EndName(outcome.end) : "");
+    row.Words("end", is_outcome ? EnumName(outcome.end) : "");
     row.Integer("events", is_outcome ? std::optional(outcome.events) : std::nullopt);
     row.Words("error_is_proved", !is_outcome ? "" : outcome.error_is_proved ? "true" : "false");
     std::vector<double> values = outcome.contact_velocity_m_s, errors = outcome.contact_velocity_error_m_s;

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/strip.h"
 #include "absl/types/span.h"
 #include "client/cli/io/csv_row.h"
+#include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
 #include "proto/wire/outcome.h"
 
@@ -267,12 +267,6 @@ std::string NotesText(const std::vector<Note>& notes) {
 }
 
 // --- CSV: reflection visits the fields of the outcome's proto, so that a new field gets its column automatically. ---
-
-// The name of a value without the prefix of its enum: "REBOUND" for REGIME_REBOUND.
-std::string BareName(const google::protobuf::EnumValueDescriptor& value) {
-  const std::string prefix(absl::StripSuffix(value.type()->FindValueByNumber(0)->name(), "UNSPECIFIED"));
-  return std::string(absl::StripPrefix(value.name(), prefix));
-}
 
 // Appends the fields of a message. Those of one that `is_unset` have empty cells.
 void AppendFields(const Message& message, const std::string& prefix, bool is_unset, CsvRow& row);

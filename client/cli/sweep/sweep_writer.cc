@@ -13,6 +13,7 @@
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/json_text.h"
 #include "client/cli/text/table.h"
+#include "proto/wire/plan.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet::cli {
@@ -56,7 +57,7 @@ std::string SummaryText(const SweepSummary& summary) {
 }
 
 std::string SummaryCsv(const SweepSummary& summary) {
-  const auto by_model = [](Model model) { return absl::StrCat("MODEL_", ModelName(model)); };
+  const auto by_model = [](Model model) { return absl::StrCat("MODEL_", EnumName(model)); };
   std::string text = absl::StrCat("kind,points,first_index\nall,", summary.points, ",\n");
   for (const Count& count : Counts(summary, RegimeName, by_model)) {
     absl::StrAppend(&text, count.name, ",", count.tally.count, ",",

@@ -3,22 +3,29 @@
 #ifndef RICOCHET_CLIENT_CLI_TEXT_ENUM_NAMES_H_
 #define RICOCHET_CLIENT_CLI_TEXT_ENUM_NAMES_H_
 
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/generated_enum_reflection.h>
+
 #include <string>
 
-#include "ricochet/fit.h"
+#include "proto/wire/enums.h"
 #include "ricochet/outcome.h"
 #include "ricochet/plan.h"
 #include "ricochet/sweep.h"
 
 namespace ricochet::cli {
 
-// Return names in the protos without their prefix: "REBOUND", "INADMISSIBLE", "COMPLIANT".
+// Returns the name of a value without the prefix of its enum: "REBOUND" for REGIME_REBOUND.
+std::string BareName(const google::protobuf::EnumValueDescriptor& value);
+
+// Return names in the protos without their prefix: "COMPLIANT", "REBOUND", "INADMISSIBLE".
+template <typename Enum>
+std::string EnumName(Enum value) {
+  const auto& type = *google::protobuf::GetEnumDescriptor<typename EnumPair<Enum>::Other>();
+  return BareName(*type.FindValueByNumber(ToProto(value)));
+}
 const std::string& RegimeName(Regime regime);
 const std::string& StatusName(RowStatus status);
-std::string ModelName(Model model);
-std::string KindName(DerivativeKind kind);
-std::string ThresholdName(Threshold threshold);
-std::string FitEndName(FitEndKind kind);
 
 // Return words: "stick in compression", "finite duration", "compensated".
 std::string RegimeText(Regime regime);
