@@ -129,9 +129,8 @@ void AddAudit(CLI::App& app, Command& command) {
            sub->add_option("--data", options->data.file,
                            "Many impacts, one on each line; the header names the columns; - for standard input"))
       ->type_name("FILE.csv");
-  sub->add_option("--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+  AddRepeatable(*sub, "--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
+      ->type_name("NAME");
   sub->add_flag("--list", options->data.list,
                 "As text, also name each row of the data that is not admissible, and why");
   sub->add_flag("--strict", options->data.strict, "Fail if an impact is not admissible, after writing the answer");

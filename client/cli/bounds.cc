@@ -238,10 +238,9 @@ void AddBounds(CLI::App& app, Command& command) {
   const auto [sub, options] = AddCommand<BoundsOptions>(
       app, "bounds", "The values that the coefficients of an impact can take", kExample, RunBounds, command);
   AddSceneOptions(*sub, options->scene);
-  sub->add_option("--range", options->ranges,
-                  "An uncertain field of a planar system, of friction or of the surface; may be repeated")
-      ->type_name("PATH=LOW:HIGH")
-      ->allow_extra_args(false);
+  AddRepeatable(*sub, "--range", options->ranges,
+                "An uncertain field of a planar system, of friction or of the surface; may be repeated")
+      ->type_name("PATH=LOW:HIGH");
   AddCertifiedOption(*sub, options->certified);
   AddDerivativeOptions(*sub, "ends of ranges and critical coefficients of friction", options->derivatives);
   AddPictureOptions(*sub, "the ranges as bars", options->picture);

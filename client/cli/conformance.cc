@@ -142,9 +142,7 @@ absl::Status RunGrade(const ConformanceOptions& options) {
 constexpr std::array kListFormats = {Format::kText, Format::kJson};
 
 void AddFamilies(CLI::App& sub, ConformanceOptions& options) {
-  sub.add_option("--family", options.families, "The cases of this family alone; repeatable")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+  AddRepeatable(sub, "--family", options.families, "The cases of this family alone; repeatable")->type_name("NAME");
 }
 
 void AddGradeOptions(CLI::App& sub, ConformanceOptions& options) {
@@ -159,9 +157,7 @@ void AddGradeOptions(CLI::App& sub, ConformanceOptions& options) {
                  "newton, poisson or energetic: the law to be obeyed [that of ANSWERS, else the one that most obey]")
       ->type_name("NAME");
   AddFamilies(sub, options);
-  sub.add_option("--case", options.cases, "This case alone; repeatable, and beside --family")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+  AddRepeatable(sub, "--case", options.cases, "This case alone; repeatable, and beside --family")->type_name("NAME");
   MarkFile(FileUse::kWritten,
            sub.add_option("--html", options.html,
                           "Write the report as one page that needs nothing beside it; - for standard output"),

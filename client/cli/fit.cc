@@ -107,30 +107,23 @@ void AddFit(CLI::App& app, Command& command) {
                            "Measured impacts, one on each line; the header names the columns; - for standard input"))
       ->type_name("FILE.csv")
       ->required();
-  sub->add_option("--unknown", options->data.unknowns,
-                  "A number of the scene to find, and where to start [the scene's own number]; repeatable")
+  AddRepeatable(*sub, "--unknown", options->data.unknowns,
+                "A number of the scene to find, and where to start [the scene's own number]; repeatable")
       ->type_name("NAME[=START]")
-      ->required()
-      ->allow_extra_args(false);
-  sub->add_option("--bound", options->data.bounds, "Bounds of an unknown; either may be left out; repeatable")
-      ->type_name("NAME=LOW:HIGH")
-      ->allow_extra_args(false);
-  sub->add_option("--sigma", options->data.sigmas,
-                  "The standard deviation of the error of a measured column; repeatable")
-      ->type_name("NAME=SIGMA")
-      ->allow_extra_args(false);
-  sub->add_option("--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+      ->required();
+  AddRepeatable(*sub, "--bound", options->data.bounds, "Bounds of an unknown; either may be left out; repeatable")
+      ->type_name("NAME=LOW:HIGH");
+  AddRepeatable(*sub, "--sigma", options->data.sigmas,
+                "The standard deviation of the error of a measured column; repeatable")
+      ->type_name("NAME=SIGMA");
+  AddRepeatable(*sub, "--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
+      ->type_name("NAME");
   sub->add_option("--loss", options->loss,
                   "What residuals cost: squares, or huber or cauchy beyond SCALE sigmas [squares]")
       ->type_name("LOSS[=SCALE]");
   sub->add_option("--starts", options->starts, "Searches; further ones spread over the bounds [1]")->type_name("N");
   sub->add_option("--iterations", options->iterations, "The most iterations of a search [100]")->type_name("N");
-  sub->add_option("--region", options->data.region, "Two unknowns whose 95 % region is wanted")
-      ->type_name("NAME,NAME")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  AddList(*sub, "--region", options->data.region, "Two unknowns whose 95 % region is wanted")->type_name("NAME,NAME");
   sub->add_flag("--rows", options->rows, "As csv, print the rows of the data with their residuals");
   sub->add_flag("--strict", options->strict, "Fail if the data refuse the physics, after writing the answer");
   AddPictureOptions(*sub, "data over model, the residuals, the profile of each unknown and the region,",

@@ -127,19 +127,14 @@ void AddMultiContact(CLI::App& app, Command& command) {
                            "A ricochet.v1.MultiContactScene as JSON or textproto; - for standard input"))
       ->type_name("FILE")
       ->required();
-  sub->add_option("--method", options->methods,
-                  "What to compute: orders, springs, possible [all that the scene allows]")
-      ->type_name("NAME,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  sub->add_option("--state", options->states,
-                  "A velocity before in place of the scene's, body by body or contact by contact; repeatable")
-      ->type_name("V,V,...")
-      ->allow_extra_args(false);
-  sub->add_option("--function", options->outputs,
-                  "A linear function of the velocities that gets bounds too; repeatable")
-      ->type_name("NAME=C,C,...")
-      ->allow_extra_args(false);
+  AddList(*sub, "--method", options->methods, "What to compute: orders, springs, possible [all that the scene allows]")
+      ->type_name("NAME,...");
+  AddRepeatable(*sub, "--state", options->states,
+                "A velocity before in place of the scene's, body by body or contact by contact; repeatable")
+      ->type_name("V,V,...");
+  AddRepeatable(*sub, "--function", options->outputs,
+                "A linear function of the velocities that gets bounds too; repeatable")
+      ->type_name("NAME=C,C,...");
   sub->add_option("--stiffness-ratio", options->stiffness_ratio,
                   "Springs while the relative stiffness of a contact runs from LOW to HIGH")
       ->type_name("CONTACT=LOW:HIGH");

@@ -71,10 +71,8 @@ void AddPlot(CLI::App& app, Command& command) {
                            "The picture; - for SVG on standard output [FILE with the ending .svg]"),
            PictureFormats())
       ->type_name("FILE.svg|.png|.pdf");
-  sub->add_option("--column", options->columns, "Columns of the file to draw, in this order [all]")
-      ->type_name("COLUMN,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  AddList(*sub, "--column", options->columns, "Columns of the file to draw, in this order [all]")
+      ->type_name("COLUMN,...");
   AddLookOptions(*sub, options->picture);
   AddAxisOptions(*sub, options->picture);
   AddKindOption(*sub, options->picture);

@@ -199,14 +199,11 @@ void AddSolve(CLI::App& app, Command& command) {
       sub->add_option("--data", options->data.file,
                       "Many impacts, one on each line; the header names fields of the scene; - for standard input"))
       ->type_name("FILE.csv");
-  sub->add_option("--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  sub->add_option("--column", options->data.columns,
-                  "Fields of the outcome to give for --data; default: the contact's velocity after and the impulse")
-      ->type_name("COLUMN,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  AddRepeatable(*sub, "--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
+      ->type_name("NAME");
+  AddList(*sub, "--column", options->data.columns,
+          "Fields of the outcome to give for --data; default: the contact's velocity after and the impulse")
+      ->type_name("COLUMN,...");
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kRowFormats);
 }

@@ -303,19 +303,15 @@ absl::Status RunSweep(const SweepOptions& options) {
 }
 
 void AddGridOptions(CLI::App& sub, SweepOptions& options) {
-  sub.add_option(
-         "--axis", options.axes,
-         "A field that varies: a list 0.1,1/3,0.5 or lin:START:STOP:COUNT or log:START:STOP:COUNT; an angle may "
-         "be in degrees, 45deg; may be repeated")
+  AddRepeatable(sub, "--axis", options.axes,
+                "A field that varies: a list 0.1,1/3,0.5 or lin:START:STOP:COUNT or log:START:STOP:COUNT; an angle may "
+                "be in degrees, 45deg; may be repeated")
       ->type_name("PATH=VALUES")
-      ->allow_extra_args(false)
       ->group("Grid");
   sub.add_flag("--zip", options.zip, "Advance all axes together instead of combining their values")->group("Grid");
-  sub.add_option("--column", options.columns,
-                 "Fields of the outcome to compute; default: the three coefficients and rates_after_rad_s[0]")
+  AddList(sub, "--column", options.columns,
+          "Fields of the outcome to compute; default: the three coefficients and rates_after_rad_s[0]")
       ->type_name("COLUMN,...")
-      ->delimiter(',')
-      ->allow_extra_args(false)
       ->group("Grid");
   sub.add_flag("--regime", options.regime,
                "Also print the regime of every point, and its status: OK, INADMISSIBLE, or why it has no numbers")

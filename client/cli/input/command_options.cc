@@ -21,6 +21,14 @@ CLI::App* AddSubcommand(CLI::App& app, const char* name, const char* help, const
   return sub;
 }
 
+CLI::Option* AddRepeatable(CLI::App& app, const char* name, std::vector<std::string>& values, const std::string& help) {
+  return app.add_option(name, values, help)->allow_extra_args(false);
+}
+
+CLI::Option* AddList(CLI::App& app, const char* name, std::vector<std::string>& values, const std::string& help) {
+  return AddRepeatable(app, name, values, help)->delimiter(',');
+}
+
 void AddServerOptions(CLI::App& app, CommonOptions& options) { AddConnectionOptions(app, options.connection); }
 
 void AddOutputOptions(CLI::App& app, CommonOptions& options, absl::Span<const Format> formats) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
@@ -18,7 +19,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace ricochet::cli {
 
@@ -37,6 +39,10 @@ std::pair<CLI::App*, Options*> AddCommand(CLI::App& app, const char* name, const
   const auto run_with_options = [options, run = std::move(run)] { return run(*options); };
   return {AddSubcommand(app, name, help, example, run_with_options, command), options.get()};
 }
+
+// Adds an option that takes one value each time that it is given, or a list of values between commas.
+CLI::Option* AddRepeatable(CLI::App& app, const char* name, std::vector<std::string>& values, const std::string& help);
+CLI::Option* AddList(CLI::App& app, const char* name, std::vector<std::string>& values, const std::string& help);
 
 struct CommonOptions {
   ConnectionInput connection;

@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "client/cli/input/command_options.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/number_input.h"
 #include "core/base/nearest.h"
@@ -39,15 +40,11 @@ void AddDemandOptions(CLI::App& app, DemandOptions& options) {
                  "are left out; default 1e-12")
       ->type_name("X")
       ->group(group);
-  app.add_option("--require", options.required, "Effects that are simulated even if they are negligible")
+  AddList(app, "--require", options.required, "Effects that are simulated even if they are negligible")
       ->type_name("EFFECT,...")
-      ->delimiter(',')
-      ->allow_extra_args(false)
       ->group(group);
-  app.add_option("--exclude", options.excluded, "Effects that are left out whatever that changes")
+  AddList(app, "--exclude", options.excluded, "Effects that are left out whatever that changes")
       ->type_name("EFFECT,...")
-      ->delimiter(',')
-      ->allow_extra_args(false)
       ->group(group);
 }
 

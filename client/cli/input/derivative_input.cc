@@ -3,20 +3,16 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/cli/input/command_options.h"
 #include "client/cli/input/short_name.h"
 
 namespace ricochet::cli {
 
 void AddDerivativeOptions(CLI::App& sub, const std::string& numbers, DerivativeOptions& options) {
-  sub.add_option("--derivatives", options.of,
-                 absl::StrCat("Also print the derivatives of these ", numbers, " by those of --by"))
-      ->type_name("OF,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  sub.add_option("--by", options.by, "The numbers of the scene that --derivatives lets change")
-      ->type_name("BY,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  AddList(sub, "--derivatives", options.of,
+          absl::StrCat("Also print the derivatives of these ", numbers, " by those of --by"))
+      ->type_name("OF,...");
+  AddList(sub, "--by", options.by, "The numbers of the scene that --derivatives lets change")->type_name("BY,...");
 }
 
 absl::StatusOr<std::optional<DerivativePaths>> ReadDerivatives(const DerivativeOptions& options, const Scene& scene,

@@ -15,6 +15,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "client/cli/input/command_options.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/mechanism_file.h"
 #include "client/cli/io/csv_table.h"
@@ -157,10 +158,8 @@ void AddMechanismOptions(CLI::App& app, SceneOptions& options) {
                           "A mechanism as numpy.savez writes it: arrays M (n x n), J (2 x n or 3 x n) and qdot (n)"))
       ->type_name("FILE.npz")
       ->group("Scene");
-  app.add_option("--keep", options.kept, "Coordinates of the mechanism that a brake or a controller holds")
+  AddList(app, "--keep", options.kept, "Coordinates of the mechanism that a brake or a controller holds")
       ->type_name("I,...")
-      ->delimiter(',')
-      ->allow_extra_args(false)
       ->group("Scene");
   app.add_flag("--composite", options.composite, "All joints of the mechanism hold: it moves as one rigid body")
       ->group("Scene");
