@@ -7,21 +7,29 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <string>
 #include <thread>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/synchronization/mutex.h"
+#include "ricochet/engine_info.h"
+#include "ricochet/limits.h"
+#include "server/base/listen_address.h"
 #include "server/base/log.h"
 #include "server/base/log_writer.h"
 #include "server/base/signals.h"
 #include "server/options.h"
 #include "server/server.h"
-#include "server/start_fields.h"
+#include "server/server_limits.h"
 
+namespace ricochet::server {
 namespace {
 
 // The time at the end for lines of the log that are not yet written; a log that nobody reads keeps some for ever.
@@ -47,33 +55,60 @@ void BoundKeptMemory() {
   mallopt(M_TRIM_THRESHOLD, kMostKeptInAnArena);
 }
 
+// Returns how the caller's requests travel.
+std::string SecurityOf(const Options& options) {
+  const char* const tokens = options.tokens.empty() ? "" : ", tokens";
+  if (!options.tls.client_ca.empty()) return absl::StrCat("mutual TLS", tokens);
+  if (!options.tls.certificate.empty()) return absl::StrCat("TLS", tokens);
+  const bool on_this_host = std::all_of(options.listen.begin(), options.listen.end(), IsLocal);
+  return absl::StrCat(on_this_host ? "plaintext on this host" : "plaintext beyond this host", tokens);
+}
+
+// The fields of the log's first record: which server this is, where it listens and within which limits.
+std::vector<LogField> StartFields(const Options& options) {
+  const std::string addresses = absl::StrJoin(
+      options.listen, ",", [](std::string* out, const ListenAddress& address) { *out += ToString(address); });
+  std::vector<LogField> fields = {{"version", ThisEngine().version},
+                                  {"engine", ThisEngine().fingerprint},
+                                  {"listen", addresses},
+                                  {"security", SecurityOf(options)},
+                                  {"transport_memory_mib", options.transport_memory_mib},
+                                  {"max_threads", int64_t{options.max_threads}},
+                                  {"compute_threads", int64_t{options.compute_threads}},
+                                  {"drain_grace_ms", int64_t{options.drain_grace.count()}},
+                                  {"drain_timeout_ms", int64_t{options.drain_timeout.count()}}};
+  const ServerLimits limits = ServerLimitsOf(options);
+  for (const NamedServerLimit& limit : kServerLimits) fields.push_back({limit.name, limits.*limit.value});
+  for (const NamedLimit& limit : kLimits) fields.push_back({limit.name, options.limits.*limit.value});
+  return fields;
+}
+
 int Run(int argc, const char* const* argv) {
-  namespace server = ricochet::server;
   BoundKeptMemory();
   OpenStandardDescriptors();
-  const server::Signals signals;
+  const Signals signals;
 
-  const auto command = server::ParseCommandLine(argc, argv);
+  const auto command = ParseCommandLine(argc, argv);
   if (!command.ok()) {
     std::cerr << "ricochetd: " << command.status().message() << '\n';
     return 2;
   }
-  if (const auto* notice = std::get_if<server::Notice>(&*command)) {
+  if (const auto* notice = std::get_if<Notice>(&*command)) {
     std::cout << notice->text;
     return 0;
   }
 
-  const auto& options = std::get<server::Options>(*command);
-  auto writer = server::LogWriter::Open(options.log_file);
+  const auto& options = std::get<Options>(*command);
+  auto writer = LogWriter::Open(options.log_file);
   if (!writer.ok()) {
     std::cerr << "ricochetd: " << writer.status().message() << '\n';
     return 1;
   }
-  const server::Log log(options.log_format, options.log_level, *std::move(writer));
-  log.Write(server::LogLevel::kInfo, "starting", server::StartFields(options));
-  const auto running = server::Server::Start(options, log);
+  const Log log(options.log_format, options.log_level, *std::move(writer));
+  log.Write(LogLevel::kInfo, "starting", StartFields(options));
+  const auto running = Server::Start(options, log);
   if (!running.ok()) {
-    log.Write(server::LogLevel::kError, "cannot start", {{"reason", std::string(running.status().message())}});
+    log.Write(LogLevel::kError, "cannot start", {{"reason", std::string(running.status().message())}});
     return 1;
   }
   (*running)->AtHangUp([&log] { log.Reopen().IgnoreError(); });
@@ -85,9 +120,10 @@ int Run(int argc, const char* const* argv) {
 }
 
 }  // namespace
+}  // namespace ricochet::server
 
 int main(int argc, char** argv) {
   // A build of abseil with assertions reports the lock order inside gRPC as a potential deadlock.
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
-  return Run(argc, argv);
+  return ricochet::server::Run(argc, argv);
 }

@@ -2,14 +2,15 @@
 
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/server_builder.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
-#include "server/base/descriptor_limit.h"
 #include "server/base/port_file.h"
 #include "server/health/self_test.h"
 #include "server/health/serving_check.h"
@@ -24,6 +25,20 @@ constexpr std::chrono::milliseconds kTimeForLog(100);
 constexpr int64_t kLeastMessageBytes = int64_t{1} << 20;
 constexpr std::chrono::seconds kWatchdogPause(5);
 constexpr std::chrono::seconds kWatchdogPatience(10);
+
+// Raises the soft limit of open descriptors to the hard limit, which shells and service managers often leave at 1024.
+// Returns the limit that then holds.
+int64_t RaiseDescriptorLimit() {
+  rlimit limit = {};
+  getrlimit(RLIMIT_NOFILE, &limit);
+  const rlimit raised = {.rlim_cur = limit.rlim_max, .rlim_max = limit.rlim_max};
+  if (setrlimit(RLIMIT_NOFILE, &raised) == 0) limit = raised;
+  return static_cast<int64_t>(std::min<rlim_t>(limit.rlim_cur, std::numeric_limits<int64_t>::max()));
+}
+
+// Returns how many connections fit below `descriptors`, at least 1: each takes two, and 32 stay free for the rest of
+// the process.
+int64_t ConnectionsBelow(int64_t descriptors) { return std::max<int64_t>((descriptors - 32) / 2, 1); }
 
 // Announces how many connections fit below the limit of descriptors, if that is less than the options allow.
 ConnectionLimits LimitsOfConnections(const Options& options, const Log& log) {

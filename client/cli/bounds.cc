@@ -11,7 +11,6 @@
 #include "client/cli/input/certificate_report.h"
 #include "client/cli/input/derivative_input.h"
 #include "client/cli/input/make_solver.h"
-#include "client/cli/input/name_list.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/io/csv_row.h"
 #include "client/cli/plot/picture_input.h"

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "proto/wire/column_bytes.h"
 #include "proto/wire/demand.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/map.h"

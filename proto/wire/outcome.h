@@ -4,6 +4,7 @@
 #define RICOCHET_PROTO_WIRE_OUTCOME_H_
 
 #include "proto/wire/enums.h"
+#include "ricochet/certificate.h"
 #include "ricochet/outcome.h"
 #include "ricochet/v1/outcome.pb.h"
 
@@ -19,6 +20,9 @@ void FromProto(const v1::Coefficients& proto, Coefficients& coefficients);
 
 void ToProto(const ContactVelocity& velocity, v1::ContactVelocity& proto);
 void FromProto(const v1::ContactVelocity& proto, ContactVelocity& velocity);
+
+void ToProto(const Certificate& certificate, v1::Certificate& proto);
+void FromProto(const v1::Certificate& proto, Certificate& certificate);
 
 void ToProto(const Derivative& derivative, v1::Derivative& proto);
 void FromProto(const v1::Derivative& proto, Derivative& derivative);

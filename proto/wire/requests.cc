@@ -1,7 +1,6 @@
 #include "proto/wire/requests.h"
 
 #include "proto/wire/bounds.h"
-#include "proto/wire/certificate.h"
 #include "proto/wire/demand.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/map.h"

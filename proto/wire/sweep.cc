@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstddef>
 
-#include "proto/wire/column_bytes.h"
 #include "proto/wire/demand.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/map.h"

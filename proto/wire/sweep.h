@@ -3,6 +3,10 @@
 #ifndef RICOCHET_PROTO_WIRE_SWEEP_H_
 #define RICOCHET_PROTO_WIRE_SWEEP_H_
 
+#include <algorithm>
+#include <string>
+
+#include "absl/types/span.h"
 #include "proto/wire/enums.h"
 #include "ricochet/sweep.h"
 #include "ricochet/v1/sweep.pb.h"
@@ -28,6 +32,12 @@ v1::SweepSummary ToProto(const SweepSummary& summary);
 SweepSummary FromProto(const v1::SweepSummary& proto);
 void ToProto(const SweepSummary& summary, v1::SweepSummary& proto);
 void FromProto(const v1::SweepSummary& proto, SweepSummary& summary);
+
+// Fills `doubles` from the first of `bytes`, which may lie at any address. Unlike memcpy, std::copy_n may be given the
+// address of an empty span, which is null.
+inline void CopyDoubles(const std::string& bytes, absl::Span<double> doubles) {
+  std::copy_n(bytes.data(), doubles.size() * sizeof(double), reinterpret_cast<char*>(doubles.data()));
+}
 
 // Sets or clears every field of `proto`, whose capacity is reused. The seal is cleared: proto/wire/chunk_seal.h puts it
 // on.

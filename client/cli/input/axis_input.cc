@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "client/cli/input/command_options.h"
 #include "client/cli/input/short_name.h"
 #include "client/cli/text/number_input.h"
 
@@ -96,6 +97,16 @@ absl::StatusOr<IndexRange> ParseRange(const std::string& text) {
     range.end = *end;
   }
   return range;
+}
+
+bool AsksForNames(const std::vector<std::string>& values) { return values == std::vector<std::string>{"?"}; }
+
+absl::Status ListNames(const SceneOptions& options, std::vector<std::string> (*names_of)(const Scene&)) {
+  const absl::StatusOr<Scene> scene = options.any() ? ReadScene(options) : Scene{.system = Pendulum()};
+  if (!scene.ok()) return scene.status();
+  std::string text;
+  for (const std::string& name : names_of(*scene)) absl::StrAppend(&text, name, "\n");
+  return WriteOutput({}, text);
 }
 
 }  // namespace ricochet::cli

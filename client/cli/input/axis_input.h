@@ -1,4 +1,5 @@
-// Reads axes and ranges of a sweep, and ranges of fields, as a user types them.
+// Reads axes and ranges of a sweep, and ranges of fields, as a user types them; prints the names that they may have
+// where the user types a question mark: `--axis ?`, `--column ?` and `--range ?`.
 
 #ifndef RICOCHET_CLIENT_CLI_INPUT_AXIS_INPUT_H_
 #define RICOCHET_CLIENT_CLI_INPUT_AXIS_INPUT_H_
@@ -6,8 +7,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
+#include "client/cli/input/scene_input.h"
 #include "ricochet/scene.h"
 #include "ricochet/solver.h"
 
@@ -29,6 +32,12 @@ absl::StatusOr<IndexRange> ParseRange(const std::string& text);
 
 // Reads "PATH=LOW:HIGH" by the rules of ParseAxis.
 absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text, const Scene& scene);
+
+// True if an option was given once, as a question mark.
+bool AsksForNames(const std::vector<std::string>& values);
+
+// Prints the names of the scene, one a line; without a scene those of a pendulum.
+absl::Status ListNames(const SceneOptions& options, std::vector<std::string> (*names_of)(const Scene&));
 
 }  // namespace ricochet::cli
 
