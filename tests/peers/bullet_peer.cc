@@ -142,10 +142,7 @@ class BulletMultiBodyPeer final : public Peer {
     }
   }
 
-  AfterImpact After() const override {
-    const double omega = world_->pendulum.getJointVel(0);
-    return {.omega = omega, .energy_j = 0.5 * kInertiaAboutPin * omega * omega};
-  }
+  AfterImpact After() const override { return AfterAt(world_->pendulum.getJointVel(0)); }
 
  private:
   struct World {

@@ -52,10 +52,7 @@ class DartPeer final : public Peer {
     for (int i = 0; i < kMostSteps && pendulum_->getVelocity(0) < -kStopped; ++i) world_->step();
   }
 
-  AfterImpact After() const override {
-    const double omega = pendulum_->getVelocity(0);
-    return {.omega = omega, .energy_j = 0.5 * kInertiaAboutPin * omega * omega};
-  }
+  AfterImpact After() const override { return AfterAt(pendulum_->getVelocity(0)); }
 
  private:
   void SetSolver() {

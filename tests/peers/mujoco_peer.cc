@@ -86,10 +86,7 @@ class MujocoPeer final : public Peer {
     }
   }
 
-  AfterImpact After() const override {
-    const double omega = data_->qvel[0];
-    return {.omega = omega, .energy_j = 0.5 * kInertiaAboutPin * omega * omega};
-  }
+  AfterImpact After() const override { return AfterAt(data_->qvel[0]); }
 
  private:
   const int steps_per_contact_;

@@ -33,7 +33,14 @@ struct PendulumCase {
 
 // The uniform rod of a case.
 struct Rod {
-  explicit Rod(const PendulumCase& c);
+  explicit Rod(const PendulumCase& c)
+      : mass(3 * kInertiaAboutPin / (c.a * c.a + c.b * c.b)),
+        inertia_com(kInertiaAboutPin / 4),
+        com_x(c.a / 2),
+        com_y(-c.b / 2),
+        tip_x(c.a),
+        tip_y(-c.b + kTipRadius) {}
+
   double mass = 0.0;         // kg
   double inertia_com = 0.0;  // kg m^2, about the centre of mass
   double com_x = 0.0;        // m, seen from the pin
@@ -65,6 +72,9 @@ struct AfterImpact {
   double omega = 0.0;     // rad/s
   double energy_j = 0.0;  // Kinetic energy.
 };
+
+// The state of a rod whose hinge lets nothing drift.
+inline AfterImpact AfterAt(double omega) { return {omega, 0.5 * kInertiaAboutPin * omega * omega}; }
 
 class Peer {
  public:

@@ -21,8 +21,6 @@ namespace {
 using pendulum::Output;
 using pendulum::Problem;
 
-AfterImpact AfterAt(double omega) { return {.omega = omega, .energy_j = 0.5 * kInertiaAboutPin * omega * omega}; }
-
 class KernelPeer final : public Peer {
  public:
   enum class How { kLanes, kPlain, kDoubleDouble };

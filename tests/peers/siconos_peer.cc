@@ -54,10 +54,7 @@ class SiconosPeer final : public Peer {
 
   void Run() override { simulation_->computeOneStep(); }
 
-  AfterImpact After() const override {
-    const double omega = (*pendulum_->velocity())(0);
-    return {omega, 0.5 * kInertiaAboutPin * omega * omega};
-  }
+  AfterImpact After() const override { return AfterAt((*pendulum_->velocity())(0)); }
 
  private:
   const int solver_;
