@@ -96,16 +96,25 @@ bool IsList(const google::protobuf::Descriptor& type, py::ssize_t size) {
   return ListsAllEntries(type) || (&type == v1::SpatialContact::descriptor() && size == 6);
 }
 
-// Returns the shape that a matrix must have; nothing if it has that. Several contacts have rows of J each, and the
-// rules of the scene check how many.
+// Returns the shape that J must have beside so many rates, none of which may be known; nothing if it has that. Its
+// numbers alone do not tell it from its transpose. Several contacts have rows of J each, and the rules of the scene
+// check how many.
+std::string RuleForJacobian(py::ssize_t rows, py::ssize_t columns, int rates, bool has_several_contacts) {
+  const bool has_rows = rows == 2 || rows == 3 || (rows > 3 && has_several_contacts);
+  if (has_rows && (rates == 0 || columns == rates)) return "";
+  const std::string n = rates == 0 ? "n" : absl::StrCat(rates);
+  if (has_several_contacts) return absl::StrCat("(d, ", n, "), with the rows t, n or t1, t2, n of each contact");
+  return absl::StrCat("(2, ", n, ") with rows t, n or (3, ", n, ") with rows t1, t2, n");
+}
+
+// Returns the shape that a matrix must have; nothing if it has that.
 std::string RuleForShape(const google::protobuf::Descriptor& type, absl::string_view name, const Matrix& matrix,
-                         bool has_several_contacts) {
+                         int rates, bool has_several_contacts) {
   const py::ssize_t rows = matrix.ndim() == 2 ? matrix.shape(0) : 0;
   const py::ssize_t columns = matrix.ndim() == 2 ? matrix.shape(1) : 0;
   const auto is_square = [&](py::ssize_t size) { return rows == size && columns == size; };
   if (name == "mass_matrix") return rows > 0 && rows == columns ? "" : "n x n";
-  const bool has_rows = rows == 2 || rows == 3 || (rows > 3 && has_several_contacts);
-  if (name == "jacobian") return has_rows ? "" : "2 x n, rows t, n, or 3 x n, rows t1, t2, n";
+  if (name == "jacobian") return RuleForJacobian(rows, columns, rates, has_several_contacts);
   if (&type == v1::ContactMatrix::descriptor()) return rows > 0 && rows == columns ? "" : "a symmetric square matrix";
   if (&type == v1::PlanarContact::descriptor()) return is_square(2) ? "" : "a symmetric 2 x 2 matrix";
   return is_square(3) ? "" : "a symmetric 3 x 3 matrix, or its entries 11, 12, 13, 22, 23, 33 in this order";
@@ -164,18 +173,21 @@ void Filler::Fill(py::handle values, Message& message, const Place* place) {
   }
   const google::protobuf::Descriptor& type = *message.GetDescriptor();
   has_several_contacts_ = has_several_contacts_ || &type == v1::MultiContactScene::descriptor();
-  for (const auto& [key, value] : dictionary) {
-    const auto name = Utf8(key.ptr());
-    // Python may be asked what the value is, and may change the dictionary then.
-    const auto held = py::reinterpret_borrow<py::object>(value);
-    const Place there = {.outer = place, .name = name.value_or("")};
-    if (name.has_value() && MayBeMatrix(type, *name) && FillMatrix(held, message, there, dictionary)) continue;
-    const FieldDescriptor* const field = name.has_value() ? type.FindFieldByName(std::string(*name)) : nullptr;
-    if (field == nullptr) {
-      const std::string shown = py::str(key);
-      Ask("unknown_field", Place{.outer = place, .name = shown}.Text(), key, NamesOf(type));
-    } else if (!held.is_none() || !MayBeAbsent(*field)) {
-      FillField(held, message, *field, there);
+  for (const bool is_matrix : {false, true}) {  // The shape of J follows from the rates.
+    for (const auto& [key, value] : dictionary) {
+      const auto name = Utf8(key.ptr());
+      if (is_matrix != (name.has_value() && MayBeMatrix(type, *name))) continue;
+      // Python may be asked what the value is, and may change the dictionary then.
+      const auto held = py::reinterpret_borrow<py::object>(value);
+      const Place there = {.outer = place, .name = name.value_or("")};
+      if (is_matrix && FillMatrix(held, message, there, dictionary)) continue;
+      const FieldDescriptor* const field = name.has_value() ? type.FindFieldByName(std::string(*name)) : nullptr;
+      if (field == nullptr) {
+        const std::string shown = py::str(key);
+        Ask("unknown_field", Place{.outer = place, .name = shown}.Text(), key, NamesOf(type));
+      } else if (!held.is_none() || !MayBeAbsent(*field)) {
+        FillField(held, message, *field, there);
+      }
     }
   }
 }
@@ -187,7 +199,9 @@ bool Filler::FillMatrix(py::handle value, Message& message, const Place& place, 
   const Matrix matrix = Matrix::ensure(column);
   const auto& type = *message.GetDescriptor();
   if (matrix.ndim() == 1 && IsList(type, matrix.size())) return false;
-  if (const std::string rule = RuleForShape(type, place.name, matrix, has_several_contacts_); !rule.empty()) {
+  const auto* const mechanism = dynamic_cast<const v1::Mechanism*>(&message);
+  const int rates = mechanism != nullptr && violations_.empty() ? mechanism->rates_size() : 0;
+  if (const std::string rule = RuleForShape(type, place.name, matrix, rates, has_several_contacts_); !rule.empty()) {
     Refuse(place, absl::StrCat("has shape ", std::string(py::str(matrix.attr("shape"))), ": must be ", rule));
     return true;
   }

@@ -160,6 +160,17 @@ class Batches(Case):
         self.refused(lambda: ricochet.Scene({"mechanism": {"mass_matrix": mass[0][:2]}}), "mechanism.mass_matrix")
         self.refused(lambda: ricochet.Scene({"mechanism": {"jacobian": jacobian[0].T}}), "mechanism.jacobian")
 
+    def test_a_jacobian_is_told_from_its_transpose(self):
+        for rows, n in ((2, 3), (3, 2), (2, 2), (3, 3), (2, 4)):
+            scene = {"jacobian": np.ones((rows, n)), "mass_matrix": np.eye(n), "rates": -np.ones(n)}
+            ricochet.Scene({"mechanism": scene})
+            for wrong in {(n, rows), (rows, 6), (6, rows), (3, 2), (2, 3)} - {(2, n), (3, n)}:
+                for jacobian in (np.ones(wrong), np.ones(wrong).tolist()):
+                    with self.subTest(wrong, n=n), self.assertRaises(ricochet.InvalidRequest) as raised:
+                        ricochet.solve({"mechanism": {**scene, "jacobian": jacobian}, "restitution": {"newton": 0.5}})
+                    self.assertEqual(str(raised.exception), f"mechanism.jacobian has shape {wrong}: must be (2, {n}) "
+                                     f"with rows t, n or (3, {n}) with rows t1, t2, n")
+
 
 if __name__ == "__main__":
     main()

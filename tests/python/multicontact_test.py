@@ -56,6 +56,16 @@ class MultiContact(unittest.TestCase):
         self.assertEqual(slow, ricochet.multicontact(block()))
         self.assertAlmostEqual(turn(fast.orders[0]), 2 * turn(slow.orders[0]), delta=1e-14)
 
+    def test_a_jacobian_is_told_from_its_transpose(self):
+        jacobian = np.arange(20.0).reshape(4, 5) ** 2
+        scene = {"mechanism": {"mass_matrix": np.eye(5), "jacobian": jacobian, "rates": -np.ones(5)},
+                 "contacts": [{"friction": 0.3, "energetic": 0.5}] * 2}
+        ricochet.multicontact(scene, methods="orders")
+        for wrong in (jacobian.T, jacobian.reshape(2, 10), jacobian.reshape(10, 2).tolist()):
+            mechanism = {**scene["mechanism"], "jacobian": wrong}
+            with self.assertRaisesRegex(ricochet.InvalidRequest, r"mechanism\.jacobian has shape .*: must be \(d, 5\)"):
+                ricochet.multicontact({**scene, "mechanism": mechanism}, methods="orders")
+
     def test_cost_knows_the_methods(self):
         study = ricochet.cost(block(), time_limit_s=10, samples=1)
         self.assertEqual([row.name for row in study.rows], ["orders", "springs", "possible"])
