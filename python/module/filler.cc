@@ -248,7 +248,9 @@ void Filler::FillField(py::handle value, Message& message, const Field& field, c
 
 void Filler::FillList(py::handle value, Message& message, const Field& field, const Place& place) {
   const Reflection& reflection = *message.GetReflection();
-  if (field.cpp_type() == Field::CPPTYPE_DOUBLE && py::isinstance<py::array_t<double>>(value)) {
+  // A subclass is asked for its entries, as some may be masked.
+  if (field.cpp_type() == Field::CPPTYPE_DOUBLE && py::isinstance<py::array_t<double>>(value) &&
+      py::type::handle_of(value).is(PythonName("numpy", "ndarray"))) {
     const auto array = py::reinterpret_borrow<py::array_t<double>>(value);
     if (array.ndim() == 1) {
       const auto numbers = array.unchecked<1>();

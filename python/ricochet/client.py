@@ -324,8 +324,8 @@ class Client:
         Args:
             scene: gives every number that is neither unknown nor a column of the table.
             table: an array for each column: numbers of the scene that differ by row, numbers of the outcome that were
-                measured (NaN where they were not), and ``"NAME.sigma"``, the standard deviations of the measured
-                ``NAME``. A pandas frame will do. Names may be short.
+                measured (NaN or masked where they were not), and ``"NAME.sigma"``, the standard deviations of the
+                measured ``NAME``. A pandas frame will do. Names may be short.
             unknown: the numbers to find, each with the value where the search starts if it is a dictionary; None and
                 names alone start at the scene's own number.
             sigma: standard deviations of measured columns that the table has none of: numbers or arrays.
@@ -387,8 +387,8 @@ class Client:
             scene: gives every field that no column states.
             inputs: an array for each field that varies, by the field's path, ``"planar_contact.normal_m_s"``, or a
                 short name, ``"mu"``. They are equally long, or single numbers for all rows. A pandas frame will do; its
-                index is kept. What is missing (None, pandas.NA) is NaN, which makes the row invalid. An array of
-                doubles that lie side by side is not copied.
+                index is kept. What is missing (None, pandas.NA, masked) is NaN, which makes the row invalid. An array
+                of doubles that lie side by side is read where it is; the table has a copy.
             columns: the numbers of the outcome to compute: ``"contact_velocity_after.normal_m_s"``, or short names,
                 ``["newton", "poisson"]``. The table has their full names.
             tolerance, require, exclude: as in ``solve``, for every row.

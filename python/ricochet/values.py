@@ -67,8 +67,10 @@ def dictionary_expected(values: Any, path: str) -> NoReturn:
 
 
 def plain(value: Any) -> Any:
-    """Returns the Python object in a numpy scalar or in an array of one element; any other value as it is."""
-    return value.item() if isinstance(value, (np.generic, np.ndarray)) and value.size == 1 else value
+    """Returns the Python object in a numpy scalar or in an array of one element that is not masked; any other value as
+    it is."""
+    holds_one = isinstance(value, (np.generic, np.ndarray)) and value.size == 1
+    return value.item() if holds_one and not np.any(getattr(value, "mask", False)) else value
 
 
 def number(value: Any, path: str) -> float:
@@ -103,13 +105,20 @@ def is_list(value: Any) -> bool:
 
 
 def entries(value: Any) -> Any:
-    """Returns the entries of a list; a value that is none is the only entry."""
-    return value if is_list(value) else [value]
+    """Returns the entries of a list; a value that is none, or a set, which has no order, is the only entry."""
+    return value if is_list(value) and not isinstance(value, (set, frozenset)) else [value]
 
 
 def is_missing(value: Any) -> bool:
-    """Returns whether a value is None or pandas.NA."""
-    return value is None or value is getattr(sys.modules.get("pandas"), "NA", None)
+    """Returns whether a value is None, pandas.NA or masked."""
+    return value is None or value is np.ma.masked or value is getattr(sys.modules.get("pandas"), "NA", None)
+
+
+def _without_masks(values: Any) -> Any:
+    """Returns lists with None for what is masked."""
+    if isinstance(values, np.ma.MaskedArray):
+        return values.astype(object).tolist()
+    return [_without_masks(entry) for entry in values] if isinstance(values, (list, tuple)) else values
 
 
 def column(values: Any, path: str) -> Numbers:
@@ -118,10 +127,11 @@ def column(values: Any, path: str) -> Numbers:
     Raises:
         InvalidRequest: names the first entry that is no number.
     """
-    if isinstance(values, np.ma.MaskedArray):
-        values = values.astype(object).tolist()
-    # Numpy would make numbers of a list whatever it holds: of [0.1, True] and of [0.1, "2"].
-    is_mixed = not hasattr(values, "dtype") and is_list(values) and not set(map(type, values)) <= {float}
+    # Numpy would make numbers of a list whatever it holds: of [0.1, True], of [0.1, "2"] and of what is masked.
+    is_mixed = isinstance(values, np.ma.MaskedArray) or (
+        not hasattr(values, "dtype") and is_list(values) and not set(map(type, values)) <= {float})
+    if is_mixed:
+        values = _without_masks(values)
     try:
         array = np.asarray(values, dtype=object if is_mixed else None)
     except ValueError:  # The arrays in a list differ in shape.

@@ -41,7 +41,7 @@ class Fit(unittest.TestCase):
         data = table()
         for name in AFTER:
             data[f"{name}.sigma"] = np.full(6, 0.01)
-        data[AFTER[0]][2] = math.nan
+        data[AFTER[0]] = np.ma.array(data[AFTER[0]], mask=SLIP == SLIP[2])
         answer = ricochet.fit(SCENE, data, ["mu", "poisson"], bounds={"mu": (0.24999, None)}, loss="cauchy",
                               starts=2, region=["mu", "poisson"])
         self.assertEqual(answer.unknowns[0].low.kind, "CUT_BY_BOUND")

@@ -51,6 +51,8 @@ class Numbers(Case):
         "missing": (pandas.NA, "must be a number"),
         "two": (np.array([1.0, 2.0]), "must be a number"),
         "dictionary": ({"a": 1}, "must be a number"),
+        "masked": (np.ma.masked, "= masked: must be a number"),
+        "array of what is masked": (np.ma.array([1.0], mask=[True]), "must be a number"),
     }
     RIGHT = (0.25, fractions.Fraction(1, 4), np.float32(0.25), np.float64(0.25), np.longdouble(0.25), np.array(0.25),
              np.array([0.25]))
@@ -71,7 +73,7 @@ class Numbers(Case):
 
     def test_each_wrong_entry_of_an_array_is_named(self):
         for what, (value, words) in self.WRONG.items():
-            if what in ("two", "missing"):
+            if what in ("two", "missing", "masked", "array of what is masked"):
                 continue
             places = {
                 f"{MU}[1]": [
@@ -113,13 +115,31 @@ class Numbers(Case):
 
     def test_what_is_missing_is_nan_and_makes_the_row_invalid(self):
         for column in ([0.1, None], pandas.Series([0.1, pandas.NA]), pandas.array([0.1, None], dtype="Float64"),
-                       np.ma.masked_array([0.1, 0.2], [False, True]), pandas.Series([0.1, np.nan])):
+                       np.ma.masked_array([0.1, 0.2], [False, True]), [0.1, np.ma.masked],
+                       pandas.Series([0.1, np.nan])):
             with self.subTest(type(column).__name__), warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
                 table = ricochet.solve_batch(PENDULUM, {MU: column}, [NEWTON])
                 self.assertEqual([table.codes["status"][row] for row in (0, 1)], ["OK", "INVALID"])
                 self.assertTrue(np.isnan(table[NEWTON][1]))
                 self.assertEqual([warning.category for warning in caught], [ricochet.InvalidRows])
+
+    def test_a_vector_has_an_order_and_no_masked_entries(self):
+        sphere = {"spatial_contact": {"w_per_kg": [3, 0, 0, 3, 0, 1], "tangential_m_s": [9, 2], "normal_m_s": -1}}
+        arm = {"mechanism": {"mass_matrix": np.eye(2), "jacobian": np.eye(2), "rates": [1, -1]}}
+        masked = np.ma.array([9.0, 2.0], mask=[False, True])
+        for scene, field, value, words in (
+                (sphere, "tangential_m_s", masked, "[1] = masked"), (sphere, "tangential_m_s", {9.0, 2.0}, "[0] = {"),
+                (sphere, "w_per_kg", np.ma.array(np.ones(6), mask=[0, 0, 0, 0, 0, 1]), "[5] = masked"),
+                (arm, "rates", masked, "[1] = masked"), (arm, "rates", frozenset({1.0}), "[0] = frozenset"),
+                (arm, "mass_matrix", np.ma.array(np.eye(2), mask=np.eye(2)), "[0] = nan")):
+            [(system, values)] = scene.items()
+            with self.subTest(field, value=value), self.assertRaises(ricochet.InvalidRequest) as raised:
+                ricochet.solve({system: {**values, field: value}, "restitution": {"newton": 0.5}})
+            self.assertIn(f"{system}.{field}{words}", str(raised.exception))
+        self.refused(lambda: ricochet.audit(PENDULUM, contact_velocity={"normal_m_s": np.ma.masked}),
+                     "contact_velocity.normal_m_s", "= masked")
+        self.refused(lambda: ricochet.audit(PENDULUM, rates_rad_s={0.1, 0.2}), "rates_rad_s", "must be a number")
 
     def test_a_scene_that_is_no_dictionary_is_called_by_its_name(self):
         for call in (ricochet.solve, ricochet.bounds, lambda scene: ricochet.sweep(scene, {"mu": 0}, "newton")):
