@@ -29,10 +29,19 @@ constexpr int64_t kPiece = 2048;
 
 double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+// The vector times a power of two, so that the square of its length is neither 0 nor infinite.
+Vector Scaled(Vector vector) {
+  const double largest = std::max({std::fabs(vector[0]), std::fabs(vector[1]), std::fabs(vector[2])});
+  if (!(largest > 0.0) || !std::isfinite(largest)) return vector;
+  for (double& component : vector) component = std::scalbn(component, -std::ilogb(largest));
+  return vector;
+}
+
 // The unit vector along the part of `vector` that is perpendicular to `normal`. It is made twice, because the first
 // difference may cancel.
 Vector UnitAcross(Vector vector, const Vector& normal) {
   for (int i = 0; i < 2; ++i) {
+    vector = Scaled(vector);
     const double along = Dot(vector, normal);
     for (size_t k = 0; k < 3; ++k) vector[k] -= along * normal[k];
     const double length = std::sqrt(Dot(vector, vector));
@@ -43,6 +52,7 @@ Vector UnitAcross(Vector vector, const Vector& normal) {
 
 // The axes t1, t2 and n of a contact: n along `normal`, t1 along the slip, or anywhere if nothing slips.
 std::array<Vector, 3> AxesOf(const Vector& velocity, Vector normal) {
+  normal = Scaled(normal);
   const double length = std::sqrt(Dot(normal, normal));
   for (double& component : normal) component /= length;
   Vector t1 = UnitAcross(velocity, normal);

@@ -45,15 +45,17 @@ class States:
         n = given["qdot"].shape[-1] if given["qdot"].ndim else 0
         shapes = {"M": (n, n), "J": (3, n), "qdot": (n,), "normal": (3,)}
         lead = {array.shape[:-len(shapes[name])] for name, array in given.items()} - {()}
+        several = lead - {(1,)}
         wrong = [
             Violation(name, f"has shape {array.shape}: must be {shapes[name]}, or that after one axis of states")
             for name, array in given.items()
             if array.shape[-len(shapes[name]):] != shapes[name] or array.ndim > len(shapes[name]) + 1
         ]
-        if not wrong and len(lead) > 1:
-            wrong.append(Violation("M", f"J, qdot and normal have {sorted(lead)} states: must have as many, or one"))
-        lengths = np.linalg.norm(given["normal"], axis=-1) if not wrong else np.ones(1)
-        if not np.all((lengths > 0) & (lengths < np.inf)):
+        if not wrong and len(several) > 1:
+            found = ", ".join(f"{name} {array.shape}" for name, array in given.items())
+            wrong.append(Violation("M", f"and the others have shapes {found}: must have as many states, or one"))
+        largest = np.abs(given["normal"]).max(axis=-1) if not wrong else np.ones(1)
+        if not np.all((largest > 0) & (largest < np.inf)):
             wrong.append(Violation("normal", "has no direction: must be finite and not 0"))
         self.held = [int(scalar("int32", entry, f"held[{i}]")) for i, entry in enumerate(held)]
         wrong += [Violation(f"held[{i}]", f"= {entry}: must be in [0, {n})")
@@ -61,7 +63,7 @@ class States:
         if wrong:
             raise InvalidRequest.of(wrong)
         self.is_batch = bool(lead)
-        count = lead.pop() if lead else (1,)
+        count = several.pop() if several else (1,)
         arrays = {name: np.ascontiguousarray(np.broadcast_to(array, count + shapes[name]))
                   for name, array in given.items()}
         self._mass, self._jacobian, self._rates, normals = arrays.values()

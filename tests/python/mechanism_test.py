@@ -77,6 +77,17 @@ class SingleStates(Case):
         after = ricochet.at_contact(np.eye(3), np.eye(3), [0, 0, -1], [0, 0, 1], friction=0.5, newton=0.5)
         np.testing.assert_array_equal(after.rates_after, [0, 0, 0.5])
 
+    def test_a_normal_may_have_any_length(self):
+        direction = np.array([0.2, -0.3, 0.9])
+        call = lambda normal, rates: ricochet.at_contact(
+            np.diag([1, 2, 3]), np.eye(3), rates, normal, friction=0.3, newton=0.5).rates_after
+        rates = np.array([1, 2, -3])
+        expected = call(direction, rates)
+        for length in (1e-200, 1e-160, 1e-158, 1e160, 1e300):
+            np.testing.assert_allclose(call(length * direction, rates), expected, rtol=1e-14)
+        for speed in (1e-200, 1e-160, 1e150):
+            np.testing.assert_allclose(call(direction, speed * rates), speed * expected, rtol=1e-14)
+
     def test_what_is_wrong_is_named(self):
         good = {"M": np.eye(3), "J": np.eye(3), "qdot": [0, 0, -1], "normal": [0, 0, 1]}
         call = lambda **wrong: ricochet.at_contact(**{**good, **wrong}, newton=0.5)
@@ -86,6 +97,8 @@ class SingleStates(Case):
         self.refused(lambda: call(qdot=3), "M", "J", "qdot")
         self.refused(lambda: call(qdot=[0, 0, "x"]), "qdot[2]")
         self.refused(lambda: call(M=np.ones((4, 3, 3)), J=np.ones((5, 3, 3))), "M")
+        with self.assertRaisesRegex(ricochet.InvalidRequest, r"shapes M \(4, 3, 3\), J \(5, 3, 3\), qdot \(3,\)"):
+            call(M=np.ones((4, 3, 3)), J=np.ones((5, 3, 3)))
         self.refused(lambda: call(held=[3]), "held[0]")
         self.refused(lambda: call(M=np.diag([1, 1, -1.0])), "mechanism.mass_matrix[8]")
         self.refused(lambda: call(M=np.eye(3) + np.triu(np.ones((3, 3)), 2)), "mechanism.mass_matrix[6]")
