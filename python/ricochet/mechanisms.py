@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
 
 from ricochet import _core
-from ricochet.errors import InvalidRequest, Violation
+from ricochet.errors import InvalidRequest, OutOfRange, Violation
 from ricochet.record import Record
 from ricochet.table import Table
-from ricochet.values import column, scalar
+from ricochet.values import column, is_list, scalar
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -39,7 +39,7 @@ class AtContact(NamedTuple):
 class States:
     """States of a mechanism, with the contact of each: n along the normal, t1 along the slip."""
 
-    def __init__(self, M: ArrayLike, J: ArrayLike, qdot: ArrayLike, normal: ArrayLike, held: Iterable[int]) -> None:
+    def __init__(self, M: ArrayLike, J: ArrayLike, qdot: ArrayLike, normal: ArrayLike, held: Any) -> None:
         given = {name: column(value, name) for name, value in
                  (("M", M), ("J", J), ("qdot", qdot), ("normal", normal))}
         n = given["qdot"].shape[-1] if given["qdot"].ndim else 0
@@ -57,7 +57,8 @@ class States:
         largest = np.abs(given["normal"]).max(axis=-1) if not wrong else np.ones(1)
         if not np.all((largest > 0) & (largest < np.inf)):
             wrong.append(Violation("normal", "has no direction: must be finite and not 0"))
-        self.held = [int(scalar("int32", entry, f"held[{i}]")) for i, entry in enumerate(held)]
+        listed = held if is_list(held) else [held]
+        self.held = [int(scalar("int32", entry, f"held[{i}]")) for i, entry in enumerate(listed)]
         wrong += [Violation(f"held[{i}]", f"= {entry}: must be in [0, {n})")
                   for i, entry in enumerate(self.held) if not 0 <= entry < n]
         if wrong:
@@ -91,7 +92,11 @@ class States:
     def explain(self, bad: Record) -> None:
         """Names the rule that a state of a batch breaks by its own field, and not by the contact it has no part of."""
         try:
+            # One state may be struck in several ways.
             _core.in_process(None).solve(
-                {**self.scene(bad.row), "restitution": {"newton": 0.0}}, None, (), (), False, 0, 0, 0, False, None)
+                {**self.scene(min(bad.row, len(self._mass) - 1)), "restitution": {"newton": 0.0}},
+                None, (), (), False, 0, 0, 0, False, None)
         except InvalidRequest as error:
             bad.update(field=error.violations[0].field, description=error.violations[0].description)
+        except OutOfRange as error:
+            bad.update(field="mechanism", description=f"is out of range: {error}")

@@ -100,6 +100,8 @@ class SingleStates(Case):
         with self.assertRaisesRegex(ricochet.InvalidRequest, r"shapes M \(4, 3, 3\), J \(5, 3, 3\), qdot \(3,\)"):
             call(M=np.ones((4, 3, 3)), J=np.ones((5, 3, 3)))
         self.refused(lambda: call(held=[3]), "held[0]")
+        self.refused(lambda: call(held=None), "held[0]")
+        self.refused(lambda: call(friction=np.ma.masked), "friction.kinetic_coefficient")
         self.refused(lambda: call(M=np.diag([1, 1, -1.0])), "mechanism.mass_matrix[8]")
         self.refused(lambda: call(M=np.eye(3) + np.triu(np.ones((3, 3)), 2)), "mechanism.mass_matrix[6]")
         self.refused(lambda: ricochet.at_contact(**good), "restitution.coefficient")
@@ -164,6 +166,21 @@ class Batches(Case):
             np.testing.assert_array_equal(np.isnan(rows).any(axis=1), [False, True, True, False])
         self.assertEqual([bad.field for bad in table.summary.bad_rows],
                          ["mechanism.mass_matrix[0]", "mechanism.jacobian[0]"])
+
+    def test_one_state_may_be_struck_in_several_ways(self):
+        for count in (1, 2):
+            mass = np.array([np.eye(3)] * count)
+            with self.assertWarnsRegex(ricochet.InvalidRows, r"1 of 2; .* row 1: friction\.kinetic_coefficient = -0"):
+                after, _, _ = ricochet.at_contact(
+                    mass, np.eye(3), [[1, 0, -1]], [0, 0, 1], friction=[0.1, -0.1], newton=0.5)
+            np.testing.assert_allclose(after[0], [0.85, 0, 0.5], rtol=1e-14)
+            self.assertTrue(np.isnan(after[1]).all())
+
+    def test_a_state_that_overflows_is_nan_as_well(self):
+        jacobian = np.array([np.eye(3), 1e160 * np.eye(3)])
+        with self.assertWarnsRegex(ricochet.InvalidRows, "1 of 2; .* row 1: mechanism is out of range: "):
+            after, _, _ = ricochet.at_contact(np.eye(3), jacobian, [1, 0, -1], [0, 0, 1], friction=0.1, newton=0.5)
+        np.testing.assert_array_equal(np.isnan(after).any(axis=1), [False, True])
 
     def test_matrices_are_taken_in_scenes_as_well(self):
         mass, jacobian, rates, _ = random_states(1, 4)
