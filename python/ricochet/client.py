@@ -178,11 +178,12 @@ class Client:
         """Computes how fast numbers of an outcome change with numbers of its scene.
 
         Derivatives of rigid impacts in a plane are exact to rounding; others have an estimated error, which
-        ``solve(scene, derivatives={"of": of, "by": by})`` gives.
+        ``solve(scene, derivatives={"of": of, "by": by})`` gives, with full names.
 
         Args:
             scene: as in ``solve``.
-            of: velocities, impulses, works and coefficients of the outcome: ``"contact_velocity_after.normal_m_s"``.
+            of: velocities, impulses, works and coefficients of the outcome: ``"coefficients.newton"`` or, in short,
+                ``"newton"``.
             by: numbers of the scene: ``"friction.kinetic_coefficient"`` or, in short, ``"mu"``.
             side: ``"both"`` gives a derivative where both sides agree; the others give the limit of the difference
                 quotient from that side, which may differ, or exist alone, on a threshold such as the limit of friction.
@@ -192,7 +193,8 @@ class Client:
             such derivative; ``solve(scene, derivatives={"of": of, "by": by}).derivatives`` says why.
 
         Raises:
-            InvalidRequest: the scene breaks a rule, a name means no number, or the scene has no derivatives.
+            InvalidRequest: the scene breaks a rule, it has no derivatives, or a name means no number or several; the
+                message has the names that it may mean.
             RicochetError: the call failed otherwise.
         """
         if side not in _SIDES:
@@ -390,7 +392,7 @@ class Client:
                 index is kept. What is missing (None, pandas.NA, masked) is NaN, which makes the row invalid. An array
                 of doubles that lie side by side is read where it is; the table has a copy.
             columns: the numbers of the outcome to compute: ``"contact_velocity_after.normal_m_s"``, or short names,
-                ``["newton", "poisson"]``. The table has their full names.
+                ``["newton", "poisson"]``; ``"d(newton)/d(mu)"`` is a derivative. The table has their full names.
             tolerance, require, exclude: as in ``solve``, for every row.
 
         Returns:
@@ -414,7 +416,7 @@ class Client:
         if not given:
             values.refuse("inputs", "is empty: must have at least one column")
         arrays = _equally_long({name: np.atleast_1d(values.column(given[name], name)) for name in given})
-        wanted = names.full_names(values.names(columns, "columns"), scene._columns(), "columns")
+        wanted = names.full_columns(values.names(columns, "columns"), scene._columns(), scene._fields())
         arguments = {"fields": list(arrays), "columns": wanted, **arguments}
         solved = self._solver.solve_batch(scene, arguments, list(arrays.values()))
         outputs, regimes, statuses, counts, bad_rows = solved
@@ -472,7 +474,7 @@ class Client:
                 short name, ``"mu"``. An array, or ``ricochet.Linspace`` or ``ricochet.Logspace``; a server takes arrays
                 of at most 65,536 values.
             columns: the numbers of the outcome to compute: ``"coefficients.newton"``, or short names, ``["newton"]``.
-                The answer has their full names.
+                A derivative is ``"d(newton)/d(mu)"``. The answer has their full names.
             form: what is returned. ``"xarray"``: a dataset with a dimension for each axis; ``"pandas"``: a frame with a
                 row for each point; ``"table"``: a ``Table`` of numpy arrays. The first two need the package of that
                 name.
@@ -494,7 +496,7 @@ class Client:
             values.refuse("form", f"= {form!r}: must be 'xarray', 'pandas' or 'table'")
         scene = Scene(scene)
         given = names.by_full_name(axes, scene._fields(), "axes")
-        wanted = names.full_names(values.names(columns, "columns"), scene._columns(), "columns")
+        wanted = names.full_columns(values.names(columns, "columns"), scene._columns(), scene._fields())
         arguments = {
             "axes": [sweep_axes.to_fields(path, axis) for path, axis in given.items()],
             "columns": wanted, "combination": "zip" if zip_axes else "product", "with_regime": True,

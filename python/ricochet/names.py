@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import Any, Collection, Iterable
 
 from ricochet.errors import InvalidRequest, Violation
-from ricochet.units import without_unit
-from ricochet.values import refuse
+from ricochet.units import derivative_of, without_unit
+from ricochet.values import refuse, suggestion
 
 # Letters of the paper whose field is called otherwise; the command line has the same (a test compares them).
 _LETTERS = {
@@ -25,6 +25,10 @@ def meanings(name: str, known: Collection[str]) -> list[str]:
     for whole in (name, _LETTERS.get(name, name)):
         if whole in known:
             return [whole]
+    derivative = derivative_of(name)
+    if derivative:
+        pairs = {path: derivative_of(path) for path in known}
+        return [path for path, pair in pairs.items() if pair and all(map(meanings, derivative, [[p] for p in pair]))]
     return [path for path in known if _ends_in(path, name) or _ends_in(without_unit(path), name)]
 
 
@@ -41,6 +45,20 @@ def full_names(given: Iterable[str], known: Collection[str], what: str) -> list[
     """
     violations: list[Violation] = []
     full = [_full_name(name, known, what, violations) for name in given]
+    if violations:
+        raise InvalidRequest.of(violations)
+    return full
+
+
+def full_columns(given: Iterable[str], columns: Collection[str], fields: Collection[str]) -> list[str]:
+    """Returns the names of columns in full; the derivative "d(OF)/d(BY)" has a number of the outcome and a field."""
+    violations: list[Violation] = []
+    full: list[str] = []
+    for name in given:
+        derivative = derivative_of(name)
+        parts = zip(derivative, (columns, fields)) if derivative else [(name, columns)]
+        paths = [_full_name(part, known, "columns", violations) for part, known in parts]
+        full.append(f"d({paths[0]})/d({paths[1]})" if derivative else paths[0])
     if violations:
         raise InvalidRequest.of(violations)
     return full

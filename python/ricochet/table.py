@@ -94,7 +94,8 @@ class Table:
 
         A grid has a dimension for each axis, other rows have the dimension ``row`` with the inputs as coordinates.
         ``regime`` and ``status`` hold numbers, which the attributes ``flag_values`` and ``flag_meanings`` explain (the
-        CF conventions). The rows of a pandas frame have its index as the coordinate ``row``.
+        CF conventions). The rows of a pandas frame have its index as the coordinate ``row``. A derivative is called
+        ``"d(OF)|d(BY)"``, as in the files of the command line, because the names in a NetCDF file have no slash.
         """
         import xarray
 
@@ -105,7 +106,8 @@ class Table:
             for name, values in self.axes.items()
         }
         variables: dict[str, Any] = {
-            name: (dimensions, values.reshape(shape), {"units": unit_of(name)}) for name, values in self.columns.items()
+            name.replace("/", "|"): (dimensions, values.reshape(shape), {"units": unit_of(name)})
+            for name, values in self.columns.items()
         }
         for name, codes in self.codes.items():
             flags = {"flag_values": np.arange(len(codes.names), dtype=np.uint8), "flag_meanings": " ".join(codes.names)}

@@ -26,17 +26,33 @@ _UNITS = {
 }
 
 
+def derivative_of(path: str) -> tuple[str, str] | None:
+    """Returns OF and BY of the column ``"d(OF)/d(BY)"``, or of ``"d(OF)|d(BY)"``, as it is called in a dataset."""
+    match = re.fullmatch(r"d\((.*?)\)[/|]d\((.*)\)", path)
+    return (match[1], match[2]) if match else None
+
+
 def unit_of(path: str) -> str:
     """Returns the unit of a field of a scene or of an answer, such as ``"rad/s"``; ``"1"`` for a pure number.
 
     >>> unit_of("pendulum.omega_minus_rad_s"), unit_of("coefficients.newton"), unit_of("rates_after_rad_s[0]")
     ('rad/s', '1', 'rad/s')
+    >>> unit_of("d(impulse.normal_total_n_s)/d(planar_body.velocity_n_m_s)")
+    '(N s)/(m/s)'
     """
+    derivative = derivative_of(path)
+    if derivative:
+        of, by = map(unit_of, derivative)
+        return of if by == "1" else f"{_grouped(of)}/{_grouped(by)}"
     name = re.sub(r"\[\d+\]$", "", path)
     for ending, unit in _UNITS.items():
         if name.endswith(ending):
             return unit
     return "1"
+
+
+def _grouped(unit: str) -> str:
+    return f"({unit})" if re.search("[/ ]", unit) else unit
 
 
 @lru_cache(4096)
@@ -47,7 +63,7 @@ def without_unit(path: str) -> str:
     ('pendulum.omega_minus', 'rates_after[0]', 'a.newton')
     """
     unit = unit_of(path)
-    if unit == "1":
+    if unit == "1" or derivative_of(path):
         return path
     ending = re.sub(r"[/ .]", "_", unit.lower().replace("1/", "per_")).replace("^", "")
     return re.sub(rf"_{ending}(\[\d+\])?$", r"\1", path)

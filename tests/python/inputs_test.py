@@ -246,6 +246,11 @@ class ShortNames(Case):
         self.assertEqual(table["newton"][0], 1)
         with self.assertRaises(KeyError):
             _ = table["poisson"]
+        slope = f"d({NEWTON})/d({MU})"
+        for call in (ricochet.solve_batch, lambda *given: ricochet.sweep(*given, form="table")):
+            table = call(PENDULUM, {"mu": [0.05]}, ["d(newton)/d(mu)", slope.replace(NEWTON, "coefficients.poisson")])
+            self.assertEqual(list(table.columns), [slope, f"d(coefficients.poisson)/d({MU})"])
+            self.assertEqual(table["d(newton)/d(mu)"][0], table[slope][0])
 
     def test_what_they_do_not_mean_is_said(self):
         self.refused(lambda: ricochet.sweep(PENDULUM, {"mu": 0}, "newtn"), "columns", f"did you mean {NEWTON}?")

@@ -1,10 +1,13 @@
 """The numbers that arrive in Python, against references of 25 digits and closed forms."""
 
 import math
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 import ricochet
+import xarray
 from support import PENDULUM, main, vectors
 
 ULPS = 4  # Tolerance 0 promises this for a pendulum.
@@ -270,6 +273,17 @@ class Jacobians(unittest.TestCase):
         for row, friction in enumerate(mu):
             scene = {**self.SCENE, "friction": {"kinetic_coefficient": friction}}
             self.assertEqual(batch[column][row], ricochet.jacobian(scene, "newton", "mu").item())
+
+    def test_a_dataset_with_derivatives_has_their_units_and_can_be_saved(self):
+        scene = {"planar_contact": {"w_tt_per_kg": 3, "w_nn_per_kg": 1, "tangential_m_s": 3, "normal_m_s": -1},
+                 "friction": {"kinetic_coefficient": 0.2}, "restitution": {"poisson": 0.5}}
+        column = "d(impulse.normal_total_n_s)/d(planar_contact.normal_m_s)"
+        data = ricochet.sweep(scene, {"mu": [0.1, 0.2]}, [column])[column.replace("/", "|")]
+        self.assertEqual(data.attrs["units"], "(N s)/(m/s)")
+        with tempfile.TemporaryDirectory() as directory:
+            data.to_netcdf(Path(directory) / "x.nc")
+            with xarray.open_dataarray(Path(directory) / "x.nc") as file:
+                np.testing.assert_array_equal(file.values, [-1.5, -1.5])
 
     def test_what_has_no_derivatives_is_refused(self):
         for scene, of, side, text in (
