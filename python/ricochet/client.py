@@ -348,33 +348,33 @@ class Client:
         """
         scene = Scene(scene)
         fields, numbers = list(scene._fields()), list(scene._columns())
-        inputs, measured, sigmas = [], {}, dict(sigma or {})
-        for name in table:
-            column = np.atleast_1d(values.column(table[name], name))
-            if name.endswith(".sigma"):
-                sigmas[name[: -len(".sigma")]] = column
-                continue
-            path = names.full_names([name], fields + numbers, "table")[0]
-            if path in fields:
+        inputs, measured, listed = [], {}, {}
+        for path, given in names.by_full_name(table, fields + numbers, "table").items():
+            column = np.atleast_1d(values.column(given, path))
+            if path.endswith(".sigma"):
+                listed[path[: -len(".sigma")]] = column
+            elif path in fields:
                 inputs.append({"path": path, "values": column})
             else:
                 measured[path] = {"path": path, "values": column}
-        for name, given in sigmas.items():
-            path = names.full_names([name], list(measured), "sigma")[0]
-            if path not in measured:
-                values.refuse("sigma", f"= {name!r}: must be a measured column" + values.suggestion(name, measured))
-            measured[path]["sigma"] = np.atleast_1d(values.column(given, f"{name}.sigma"))
-        given_starts = unknown if isinstance(unknown, Mapping) else dict.fromkeys(values.names(unknown, "unknown"))
+        for what, sigmas in (("table", listed), ("sigma", sigma or {})):
+            rule = "a measured column"
+            for path, given in names.by_name_of(sigmas, list(measured), numbers, what, rule).items():
+                if "sigma" in measured[path]:
+                    values.refuse(what, f"= {path!r}: is {path}.sigma of the table a second time")
+                measured[path]["sigma"] = np.atleast_1d(values.column(given, f"{path}.sigma"))
+        given_starts = (names.by_full_name(unknown, fields, "unknown") if isinstance(unknown, Mapping)
+                        else dict.fromkeys(values.names(unknown, "unknown")))
         paths = names.full_names(given_starts, fields, "unknown")
         unknowns = [{"path": path, "start": start} for path, start in zip(paths, given_starts.values())]
-        for name, (low, high) in (bounds or {}).items():
-            path = names.full_names([name], paths, "bounds")[0]
-            if path not in paths:
-                values.refuse("bounds", f"= {name!r}: must be an unknown" + values.suggestion(name, paths))
-            unknowns[paths.index(path)].update(low=low, high=high)
+        for path, ends in names.by_name_of(bounds or {}, paths, fields, "bounds", "an unknown").items():
+            pair = list(ends) if values.is_list(ends) else []
+            if len(pair) != 2:
+                values.refuse(path, f"= {values.shown(ends)}: must be two numbers or None, the least first")
+            unknowns[paths.index(path)].update(low=pair[0], high=pair[1])
         return self._solver.fit(scene, {
             "unknowns": unknowns, "inputs": inputs, "measured": list(measured.values()),
-            "loss": None if loss is None else loss.upper(), "loss_scale": loss_scale, "starts": starts,
+            "loss": loss, "loss_scale": loss_scale, "starts": starts,
             "max_iterations": max_iterations,
             "region": names.full_names(values.names(region, "region"), paths, "region"),
         })

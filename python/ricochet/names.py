@@ -80,6 +80,19 @@ def _full_name(name: str, known: Collection[str], what: str, violations: list[Vi
     return name
 
 
+def by_name_of(values: Any, chosen: list[str], known: Collection[str], what: str, rule: str) -> dict[str, Any]:
+    """Returns a dictionary by the full names of its keys, each of which must be one of `chosen`.
+
+    A name that means none of these is one of `known`, for the message.
+    """
+    means_chosen = hasattr(values, "keys") and all(isinstance(key, str) and meanings(key, chosen) for key in values)
+    named = by_full_name(values, chosen if means_chosen else known, what)
+    for key, name in zip(values.keys(), named):
+        if name not in chosen:
+            refuse(what, f"= {key!r}: must be {rule}{suggestion(key, chosen)}")
+    return named
+
+
 def by_full_name(values: Any, known: Collection[str], what: str) -> dict[str, Any]:
     """Returns a dictionary, or a pandas frame, by the full names of its keys."""
     if not hasattr(values, "keys"):

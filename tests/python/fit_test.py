@@ -56,13 +56,25 @@ class Fit(unittest.TestCase):
             ({"sigma": {AFTER[0]: 0.01}}, "measured[1].sigma"),
             ({"sigma": {**SIGMA, "contact.duration_s": 1}}, "must be a measured column"),
             ({"bounds": {"restitution.poisson": (0, 1)}}, "must be an unknown"),
-            ({"bounds": {"poisson": (0, 1)}}, "bounds"),
+            ({"bounds": {"poisson": (0, 1)}}, "bounds = 'poisson': must be an unknown"),
+            ({"bounds": {"mu": (0, 1), "friction.kinetic_coefficient": (0, 0.5)}}, "a second time"),
+            ({"bounds": {"mu": 0.3}}, "friction.kinetic_coefficient = 0.3: must be two numbers or None"),
+            ({"bounds": {"mu": (0, 1, 2)}}, "must be two numbers or None"),
+            ({"bounds": 0.3}, "bounds must be a dictionary"),
+            ({"sigma": {**SIGMA, "contact_velocity_after.normal": 0.1}}, "sigma = .* a second time"),
+            ({"sigma": {**SIGMA, "newton": 0.1}}, "sigma = 'newton': must be a measured column"),
+            ({"sigma": 0.01}, "sigma must be a dictionary"),
+            ({"unknown": {3: 0.1}}, "unknown must have texts"),
+            ({"loss": 3}, "loss = 3"),
+            ({"table": 3}, "table must be a dictionary"),
+            ({"table": {**table(), "contact_velocity_after.normal": SLIP}}, "table = .* a second time"),
+            ({"table": {**table(), f"{AFTER[1]}.sigma": SLIP}}, "sigma = .* a second time"),
             ({"loss": "tukey"}, "loss"),
             ({"starts": 0}, "starts"),
         ):
-            arguments = {"unknown": ["mu"], "sigma": SIGMA, **change}
+            arguments = {"table": table(), "unknown": ["mu"], "sigma": SIGMA, **change}
             with self.subTest(change), self.assertRaisesRegex(ricochet.InvalidRequest, text.replace("[", r"\[")):
-                ricochet.fit(SCENE, table(), **arguments)
+                ricochet.fit(SCENE, **arguments)
 
     def test_a_server_gives_the_same_bits(self):
         server = Ricochetd()
