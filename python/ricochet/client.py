@@ -543,15 +543,19 @@ class Client:
         """
         arguments: dict[str, Any] = {"methods": methods}
         if states is not None:
-            arguments["states"] = [{"velocity": state} for state in np.atleast_2d(values.column(states, "states"))]
+            listed = values.column(states, "states")
+            rows: Any = np.atleast_2d(listed) if listed.shape != (0,) else ()
+            arguments["states"] = [{"velocity": state} for state in rows]
         if outputs is not None:
+            if not isinstance(outputs, Mapping):
+                values.refuse("outputs", f"= {values.shown(outputs)}: must be a dictionary")
             arguments["outputs"] = [{"name": name, "coefficients": outputs[name]} for name in outputs]
         if stiffness_range is not None:
-            if len(stiffness_range) != 3:
+            if not values.is_list(stiffness_range) or len(stiffness_range) != 3:
                 values.refuse("stiffness_range", f"= {values.shown(stiffness_range)}: must be (contact, low, high)")
             arguments["stiffness_range"] = dict(zip(("contact", "low", "high"), stiffness_range))
         answers = self._solver.multicontact(scene, arguments).answers
-        return answers[0] if states is None else answers
+        return answers[0] if states is None else answers[: len(arguments["states"])]
 
     def cost(
         self, scene: SceneLike, *, time_limit_s: float | None = None, samples: int | None = None,

@@ -56,6 +56,10 @@ class MultiContact(unittest.TestCase):
         self.assertEqual(slow, ricochet.multicontact(block()))
         self.assertAlmostEqual(turn(fast.orders[0]), 2 * turn(slow.orders[0]), delta=1e-14)
 
+    def test_no_states_have_no_answers(self):
+        for states in ([], np.empty((0, 4))):
+            self.assertEqual(ricochet.multicontact(block(), states=states), [])
+
     def test_a_jacobian_is_told_from_its_transpose(self):
         jacobian = np.arange(20.0).reshape(4, 5) ** 2
         scene = {"mechanism": {"mass_matrix": np.eye(5), "jacobian": jacobian, "rates": -np.ones(5)},
@@ -81,6 +85,8 @@ class MultiContact(unittest.TestCase):
             ({"contact_matrices": {}}, {}, "contact_matrices"),
             ({}, {"methods": "order"}, "methods"),
             ({}, {"stiffness_range": (1, 2)}, "stiffness_range"),
+            ({}, {"stiffness_range": 5}, "stiffness_range"),
+            ({}, {"outputs": ["turn"]}, "outputs"),
             ({}, {"states": [[0, -1, 0]]}, "states[0].velocity"),
             ({}, {"outputs": {"turn": TURN[:3]}}, "outputs[0].coefficients"),
         ):
