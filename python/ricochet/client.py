@@ -297,14 +297,16 @@ class Client:
             InvalidRequest: the scene or a column breaks a rule.
             RicochetError: the call failed otherwise.
         """
+        scene = Scene(scene)
         given = names.by_full_name(columns, _core.field_names("AuditColumns"), "columns")
         arrays = {name: _columns_of(name, column) for name, column in given.items()}
         rows = _row_count([column.shape[-1] for column in arrays.values()])
         index = _index_of(columns, given, rows)
         most = min(self._limit("max_audit_rows"), _MOST_AUDIT_ROWS)
         answers = []
-        for start in range(0, rows, most):
-            part: dict[str, Any] = {name: _part(column, start, start + most) for name, column in arrays.items()}
+        for start in range(0, max(rows, 1), most):  # Without rows one call checks the scene.
+            part: dict[str, Any] = {
+                name: _part(column, start, start + most) for name, column in arrays.items() if rows}
             if "rates_after" in part:
                 part["rates_after"] = [{"rates_rad_s": link} for link in np.atleast_2d(part["rates_after"])]
             answer = self._solver.audit_batch(scene, {"columns": part})
@@ -423,7 +425,7 @@ class Client:
         return Table(
             dict(zip(wanted, outputs)),
             {"regime": Codes(regimes, _REGIMES), "status": Codes(statuses, _STATUSES)},
-            axes=arrays,
+            axes={name: array.copy() for name, array in arrays.items()},
             summary=Record(
                 rows=len(regimes),
                 invalid=counts[0],

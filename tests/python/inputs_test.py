@@ -207,6 +207,15 @@ class Frames(Case):
         self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: [], "a": [0.3, 0.4]}, NEWTON), MU,
                      "must be one number, or 2 as the longest array")
         self.refused(lambda: ricochet.sweep(PENDULUM, {MU: []}, NEWTON), "axes[0].list.values", "is empty")
+        wrong = {"pendulum": {**PENDULUM["pendulum"], "a_m": -1}}
+        for columns in ({}, {"normal_after_m_s": []}, {"rates_after": [[]]}):
+            self.refused(lambda: ricochet.audit_batch(wrong, columns), "pendulum.a_m", "= -1: must be > 0")
+
+    def test_a_table_keeps_its_inputs(self):
+        mu = np.array([0.0, 0.1])
+        table = ricochet.solve_batch(PENDULUM, {MU: mu}, NEWTON)
+        mu[:] = 9
+        self.assertEqual(list(table.axes[MU]), [0, 0.1])
 
     def test_an_index_is_kept(self):
         frame = pandas.DataFrame({MU: [0.0, 0.1]}, index=[7, 9])
