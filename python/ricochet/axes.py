@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Union
 
@@ -24,7 +25,7 @@ class Linspace:
 
     def values(self) -> NDArray[np.float64]:
         """Returns the values: the doubles that a sweep computes with."""
-        return _core.linspace(self.start, self.stop, self.count)
+        return _core.linspace(*_checked(self))
 
 
 @dataclass(frozen=True)
@@ -38,11 +39,24 @@ class Logspace:
 
     def values(self) -> NDArray[np.float64]:
         """Returns the values: the doubles that a sweep computes with."""
-        return _core.logspace(self.start, self.stop, self.count)
+        return _core.logspace(*_checked(self))
 
 
 Axis = Union[Linspace, Logspace, "ArrayLike"]
 """The values of an axis: a Linspace or a Logspace of any size, or an array of at most 65,536 numbers."""
+
+
+def _checked(axis: Linspace | Logspace) -> tuple[float, float, int]:
+    """Returns the ends and the count of an axis. Raises InvalidRequest where a sweep would."""
+    start, stop = number(axis.start, "start"), number(axis.stop, "stop")
+    least, rule = (0.0, "finite and > 0") if isinstance(axis, Logspace) else (-math.inf, "finite")
+    for name, end in (("start", start), ("stop", stop)):
+        if not least < end < math.inf:
+            refuse(name, f"= {shown(getattr(axis, name))}: must be {rule}")
+    count = int(scalar("int64", axis.count, "count"))
+    if not 1 <= count <= 2**53:
+        refuse("count", f"= {count}: must be in [1, 2^53]")
+    return start, stop, count
 
 
 def to_fields(path: str, axis: Axis) -> dict[str, Any]:

@@ -141,6 +141,17 @@ class Numbers(Case):
                      "contact_velocity.normal_m_s", "= masked")
         self.refused(lambda: ricochet.audit(PENDULUM, rates_rad_s={0.1, 0.2}), "rates_rad_s", "must be a number")
 
+    def test_an_axis_without_values_is_refused_by_its_rule(self):
+        lin, log = ricochet.Linspace, ricochet.Logspace
+        for axis, field, words in (
+                (lin(0, 1, 0), "count", "= 0: must be in [1, 2^53]"), (lin(0, 1, -1), "count", "= -1"),
+                (lin(0, 1, 2.5), "count", "must be a whole number"), (lin(0, np.nan, 2), "stop", "must be finite"),
+                (log(0, 1, 2), "start", "= 0: must be finite and > 0"), (log(1, -1, 2), "stop", "= -1")):
+            with self.subTest(axis):
+                self.refused(axis.values, field, words)
+        self.assertEqual(list(lin(0, 1, 3).values()), [0, 0.5, 1])
+        self.assertEqual(list(log(1, 4, 1).values()), [1])
+
     def test_a_scene_that_is_no_dictionary_is_called_by_its_name(self):
         for call in (ricochet.solve, ricochet.bounds, lambda scene: ricochet.sweep(scene, {"mu": 0}, "newton")):
             self.refused(lambda: call("hello"), "scene", "= 'hello': must be a dictionary")
