@@ -59,11 +59,16 @@ Call::~Call() {
 
 bool Call::IsInterrupted() {
   if (raised_.has_value()) return true;
+  if (!IsTimeToLook()) return false;
+  const py::gil_scoped_acquire with_lock;
+  return HandleSignals();
+}
+
+bool Call::IsTimeToLook() {
   const Clock::time_point now = Clock::now();
   if (now < next_look_) return false;
   next_look_ = now + kBetweenLooks;
-  const py::gil_scoped_acquire with_lock;
-  return HandleSignals();
+  return true;
 }
 
 bool Call::HandleSignals() {

@@ -88,17 +88,22 @@ class Call {
   template <typename Compute>
   auto RunBeside(Compute& compute) {
     auto answer = std::async(std::launch::async, [&compute] { return compute(); });
-    for (bool is_stopped = false;;) {
+    for (;;) {
+      bool is_ready = false;
       {
         const py::gil_scoped_release without_lock;
-        if (answer.wait_for(kBetweenLooks) == std::future_status::ready) return answer.get();
+        is_ready = answer.wait_for(kBetweenLooks) == std::future_status::ready;
       }
-      if (!is_stopped && HandleSignals()) is_stopped = stop_.request_stop();
+      // The parts of a stream may each be ready at once.
+      if (!raised_.has_value() && IsTimeToLook() && HandleSignals()) stop_.request_stop();
+      if (is_ready) return answer.get();
     }
   }
 
   // A LocalSolver asks this on the thread of the call.
   bool IsInterrupted();
+  // Returns true once each 20 ms.
+  bool IsTimeToLook();
   // Lets Python handle signals, on its main thread alone. Returns true if that has raised an exception.
   bool HandleSignals();
 

@@ -243,6 +243,9 @@ class Interrupts(unittest.TestCase):
         rigid = {name: part for name, part in SPRING.items() if name != "compliance"}
         calls = {
             "sweep": long_sweep,
+            # The parts of a simple one come one right after the other.
+            **{f"simple sweep {i}": lambda: ricochet.sweep(
+                PENDULUM, {"mu": ricochet.Linspace(0, 0.3, 30_000_000)}, "newton", form="table") for i in range(4)},
             "batch": lambda: ricochet.solve_batch(SPRING, {"mu": np.linspace(0.1, 0.3, 100_000)}, "contact.duration_s"),
             "cost": lambda: ricochet.cost(PENDULUM, time_limit_s=50),
             "bounds": lambda: ricochet.bounds(rigid, ranges=ranges),
