@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +32,7 @@ using google::protobuf::DescriptorPool;
 
 std::optional<std::chrono::milliseconds> Milliseconds(std::optional<double> seconds) {
   if (!seconds.has_value()) return std::nullopt;
-  return std::chrono::milliseconds(static_cast<int64_t>(*seconds * 1e3));
+  return std::chrono::milliseconds(std::llround(*seconds * 1e3));
 }
 
 Callee InProcess(std::optional<double> deadline_s) {

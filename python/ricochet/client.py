@@ -77,9 +77,9 @@ class Client:
         tls_ca: str = "", tls_cert: str = "", tls_key: str = "", server_name: str = "", token_file: str = "",
         token: str = "", config: str = "",
     ) -> None:
-        options = {name: value for name, value in locals().items() if name != "self"}
-        self._given = {**options, **{name: str(options[name]) for name in ("deadline", "max_receive")}}
-        self._given["tls"] = str(tls).lower()
+        options = {name: value for name, value in locals().items() if name != "self" and value is not None}
+        converted = {"deadline": str(deadline), "max_receive": str(max_receive), "tls": str(tls).lower()}
+        self._given = {name: converted.get(name, value) for name, value in options.items()}
         self._options: dict[str, Any] | None = None
         self._start()
         # Wrong options are an error here, and not at the first call.

@@ -7,12 +7,13 @@ import re
 from typing import Any, Mapping
 
 from ricochet.errors import InvalidRequest, Violation
-from ricochet.values import refuse
+from ricochet.values import refuse, shown
 
 # The options of a Client, which describes them.
 _NAMES = "server deadline max_receive tls tls_ca tls_cert tls_key server_name token_file token".split()
 _DEFAULT_MAX_RECEIVE = "67108864"
 _UNITS_S = {"": 1.0, "s": 1.0, "ms": 1e-3, "m": 60.0, "h": 3600.0}
+_YEAR_S = 365.0 * 24 * 3600
 
 
 def resolve(given: Mapping[str, str]) -> dict[str, Any]:
@@ -21,6 +22,9 @@ def resolve(given: Mapping[str, str]) -> dict[str, Any]:
     An argument wins over the environment, ``RICOCHET_TLS_CA`` for ``tls_ca``, which wins over a line ``tls-ca =
     "FILE"`` of the TOML file that ``config`` or ``RICOCHET_CONFIG`` names.
     """
+    for name, value in given.items():
+        if not isinstance(value, str):
+            refuse(name, f"= {shown(value)}: must be a text")
     config = given.get("config") or os.environ.get("RICOCHET_CONFIG")
     lines = _read_config(config) if config else {}
     options: dict[str, Any] = {
@@ -38,9 +42,11 @@ def resolve(given: Mapping[str, str]) -> dict[str, Any]:
 
 
 def _seconds(text: str) -> float:
-    match = re.fullmatch(r"(\d+(?:\.\d+)?)(ms|s|m|h|)", text)
+    match = re.fullmatch(r"(\d+(?:\.\d+)?(?:e[+-]?\d+)?)(ms|s|m|h|)", text)
     seconds = float(match[1]) * _UNITS_S[match[2]] if match else 0.0
-    return seconds if seconds > 0 else refuse("deadline", f"= {text}: must be a time > 0 such as 250ms or 30s")
+    if not 1e-3 <= seconds <= _YEAR_S:
+        refuse("deadline", f"= {text}: must be a time from 1ms to a year, such as 250ms or 30s")
+    return seconds
 
 
 def _read_config(path: str) -> dict[str, str]:

@@ -6,6 +6,8 @@ A short name is the end of a path, with or without its unit: "newton" for "coeff
 
 from __future__ import annotations
 
+import math
+import re
 from typing import Any, Collection, Iterable
 
 from ricochet.errors import InvalidRequest, Violation
@@ -71,13 +73,24 @@ def _full_name(name: str, known: Collection[str], what: str, violations: list[Vi
     if meant:
         violations.append(Violation(what, f"= {name!r}: must name one of {', '.join(meant)}"))
     elif "." not in name:
-        import difflib  # Only errors need it.
-
         ends = {without_unit(path).rpartition(".")[2]: path for path in reversed(list(known))}
-        near = difflib.get_close_matches(name, ends, n=1)
-        hint = f"; did you mean {ends[near[0]]}?" if near else ""
+        near = _nearest(name, ends)
+        hint = f"; did you mean {ends[near]}?" if near else ""
         violations.append(Violation(what, f"= {name!r}: must be the path of a number, or its end{hint}"))
     return name
+
+
+def _nearest(name: str, ends: Collection[str]) -> str | None:
+    import difflib  # Only errors need it.
+
+    entry = re.fullmatch(r"mass_matrix\[(\d+)\]", name)
+    size = math.isqrt(2 * sum(end.startswith("mass_matrix[") for end in ends))
+    if entry and size:  # One below the diagonal has the name of the one across it.
+        row, column = divmod(int(entry[1]), size)
+        across = f"mass_matrix[{column * size + row}]"
+        if across in ends:
+            return across
+    return next(iter(difflib.get_close_matches(name, ends, n=1)), None)
 
 
 def by_name_of(values: Any, chosen: list[str], known: Collection[str], what: str, rule: str) -> dict[str, Any]:

@@ -192,6 +192,12 @@ class Options(unittest.TestCase):
     def test_wrong_ones_are_refused(self):
         self.refuse("deadline", deadline="soon")
         self.refuse("deadline", deadline="0s")
+        for deadline in (1e-5, 5e20, float("nan"), -1):
+            with self.assertRaisesRegex(ricochet.InvalidRequest, re.escape(f"= {deadline}: must be a time from 1ms")):
+                ricochet.Client(deadline=deadline)
+        self.assertEqual(ricochet.Client(deadline=None, server=None)._options["deadline"], None)
+        self.refuse("server", server=5)
+        self.refuse("tls_ca", tls_ca=b"ca.pem")
         self.refuse("tls", tls="yes")
         self.refuse("tls_key", server="localhost:1", tls_cert="cert.pem")
         self.refuse("token", server="192.0.2.1:1", token="secret")

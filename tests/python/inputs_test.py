@@ -276,6 +276,10 @@ class ShortNames(Case):
         self.refused(lambda: ricochet.sweep(PENDULUM, {"mu": 0}, "newtn"), "columns", f"did you mean {NEWTON}?")
         self.refused(lambda: ricochet.sweep(PENDULUM, {"kinetic_coeficient": 0}, NEWTON), "axes", f"did you mean {MU}?")
         self.refused(lambda: ricochet.sweep(PENDULUM, {"mu": 0, MU: 1}, "newton"), "axes", "a second time")
+        self.refused(lambda: ricochet.sweep(PENDULUM, {"mu": 0}, "d(newtn)/d(mu)"), "columns", f"mean {NEWTON}?")
+        arm = {"mechanism": {"mass_matrix": np.eye(3), "jacobian": np.eye(3), "rates": [0, 0, -1]}}
+        self.refused(lambda: ricochet.sweep(arm, {"mass_matrix[3]": 0}, "newton"), "axes",
+                     "did you mean mechanism.mass_matrix[1]?")
         links = [{"length_m": 1, "mass_kg": 1, "com_m": 0.5, "inertia_com_kg_m2": 0.1, "theta_rad": 0.1}] * 2
         self.refused(lambda: ricochet.sweep({"linkage": {"links": links}}, {"theta": 0}, "newton"), "axes",
                      "must name one of linkage.links[0].theta_rad, linkage.links[1].theta_rad")
