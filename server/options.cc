@@ -43,6 +43,11 @@ constexpr int kMostConnections = 1'000'000;
 
 constexpr char kMetricsRule[] = "must be HOST:PORT with a port from 0 to 65535, an IPv6 host in brackets";
 
+constexpr char kEmptyRule[] = "must not be empty";
+
+// What was meant for the next option has become the value of one that lacks its own.
+constexpr char kOptionForValue[] = "must be a value, not an option; the name of a file may begin with ./";
+
 template <typename Number>
 std::optional<Number> ParseNumber(const std::string& text) {
   Number number = {};
@@ -110,7 +115,7 @@ BrokenRule ReadMode(const std::string& text, mode_t& mode) {
 
 BrokenRule ReadPath(const std::string& text, std::string& path) {
   path = text;
-  if (text.empty()) return "must not be empty";
+  if (text.empty()) return kEmptyRule;
   return std::nullopt;
 }
 
@@ -307,7 +312,7 @@ void Read(const std::vector<Given>& given, Options& options, std::vector<std::st
   for (const auto& [setting, option] : given) {
     if (option->count() == 0) continue;
     const std::string& text = option->results().back();
-    const BrokenRule broken = setting->read(text, options);
+    const BrokenRule broken = absl::StartsWith(text, "--") ? kOptionForValue : setting->read(text, options);
     if (broken.has_value()) violations.push_back(Violated(setting->name, text, *broken));
   }
 }
@@ -394,7 +399,7 @@ bool IsOfKubernetes(absl::string_view rest) {
          absl::ascii_isdigit(static_cast<unsigned char>(rest.front()));
 }
 
-// Finds variables that look like options and are none.
+// Finds variables that look like options and are none. Those that are empty may stand for a protection that is wanted.
 void CheckEnvironment(const CLI::App& app, std::vector<std::string>& violations) {
   std::vector<std::string> known;
   for (const std::string& name : OptionNames(app)) known.push_back(EnvironmentName(name));
@@ -402,8 +407,20 @@ void CheckEnvironment(const CLI::App& app, std::vector<std::string>& violations)
     const absl::string_view variable(*entry, std::strcspn(*entry, "="));
     absl::string_view rest = variable;
     if (!absl::ConsumePrefix(&rest, kEnvironmentPrefix) || IsOfKubernetes(rest)) continue;
-    if (std::find(known.begin(), known.end(), variable) != known.end()) continue;
+    const bool is_known = std::find(known.begin(), known.end(), variable) != known.end();
+    const bool is_empty = absl::string_view(*entry).size() <= variable.size() + 1;
+    if (is_known && is_empty) violations.push_back(absl::StrCat(variable, " = : ", kEmptyRule));
+    if (is_known) continue;
     violations.push_back(absl::StrCat(variable, " in the environment is not an option", DidYouMean(variable, known)));
+  }
+}
+
+// Finds "--name=", for whose value CLI11 would take the next argument.
+void CheckArguments(int argc, const char* const* argv, std::vector<std::string>& violations) {
+  for (int i = 1; i < argc; ++i) {
+    absl::string_view name = argv[i];
+    if (!absl::ConsumePrefix(&name, "--") || name.empty() || name.find('=') != name.size() - 1) continue;
+    violations.push_back(Violated(std::string(absl::StripSuffix(name, "=")), "", kEmptyRule));
   }
 }
 
@@ -462,10 +479,12 @@ std::unique_ptr<CLI::App> MakeCommandLine() { return DeclareOptions().app; }
 absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const char* const* argv) {
   const CommandLine line = DeclareOptions();
   CLI::App& app = *line.app;
+  std::vector<std::string> violations;
+  CheckArguments(argc, argv, violations);
+  if (!violations.empty()) return absl::InvalidArgumentError(absl::StrJoin(violations, "\n"));
   auto parsed = Parse(app, argc, argv);
   if (!parsed.ok() || std::holds_alternative<Notice>(*parsed)) return parsed;
   auto& options = std::get<Options>(*parsed);
-  std::vector<std::string> violations;
   CheckEnvironment(app, violations);
   Read(line.given, options, violations);
   const LiveCallLimits defaults = LiveCallLimitsFor(options.live_calls.calls);

@@ -1,8 +1,8 @@
 // Options: all settings of a server.
 //
 // The value of an option is taken from the first of these that sets it: its flag (--max-live-calls 10), the environment
-// (RICOCHETD_MAX_LIVE_CALLS=10; an empty variable counts as unset), the file of --config or RICOCHETD_CONFIG (a line
-// max-live-calls = 10, TOML or INI), its default.
+// (RICOCHETD_MAX_LIVE_CALLS=10), the file of --config or RICOCHETD_CONFIG (a line max-live-calls = 10, TOML or INI),
+// its default. An empty value is refused wherever it stands.
 
 #ifndef RICOCHET_SERVER_OPTIONS_H_
 #define RICOCHET_SERVER_OPTIONS_H_

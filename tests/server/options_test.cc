@@ -232,10 +232,7 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                                    o.drain_grace = milliseconds(1000);
                                    o.drain_timeout = milliseconds(2000);
                                    o.log_level = LogLevel::kError;
-                                 }},
-                             GoodCase{"EmptyEnvironmentIsUnset",
-                                      {.environment = {{"RICOCHETD_DRAIN_GRACE", ""}}, .file = "drain-grace = 3.5\n"},
-                                      [](Options& o) { o.drain_grace = milliseconds(3500); }}),
+                                 }}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(Options, ConfigFileIsNamedByTheEnvironmentToo) {
@@ -333,6 +330,17 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"EmptyLogFile", {.flags = {"--log-file", ""}}, {"--log-file = : must not be empty"}},
         BadCase{"LogCalls", {.flags = {"--log-calls", "some"}}, {"--log-calls = some: must be all, errors, slow:"}},
         BadCase{"EmptyPortFile", {.flags = {"--port-file", ""}}, {"--port-file = : must not be empty"}},
+        BadCase{"EmptyAfterEquals",
+                {.flags = {"--port-file=", "--tls-client-ca=ca.pem", "--insecure="}},
+                {"--port-file = : must not be empty\n--insecure = : must not be empty"}},
+        BadCase{"OptionForValue",
+                {.flags = {"--log-file", "--tokens=tok"}},
+                {"--log-file = --tokens=tok: must be a value, not an option"}},
+        BadCase{"EmptyVariables",
+                {.environment = {{"RICOCHETD_TOKENS", ""}, {"RICOCHETD_CONFIG", ""}, {"RICOCHETD_INSECURE", ""}},
+                 .file = "tokens = \"tok\"\n"},
+                {"RICOCHETD_TOKENS = : must not be empty", "RICOCHETD_CONFIG = : must not be empty",
+                 "RICOCHETD_INSECURE = : must not be empty"}},
         BadCase{"AllAtOnce",
                 {.flags = {"--listen", "nowhere"},
                  .environment = {{"RICOCHETD_MAX_LIVE_CALLS", "many"}},
