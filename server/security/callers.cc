@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
@@ -80,6 +81,7 @@ absl::StatusOr<Callers::Line> Callers::ParseLine(const std::string& text) {
 
 absl::StatusOr<Callers> Callers::Parse(const std::string& text) {
   Callers callers;
+  std::map<std::pair<std::optional<Hash>, std::string>, int> proofs;  // The line of each token and certificate.
   std::vector<std::string> wrong;
   int number = 0;
   for (const auto part : absl::StrSplit(text, '\n')) {
@@ -88,8 +90,16 @@ absl::StatusOr<Callers> Callers::Parse(const std::string& text) {
     if (line.empty() || line.front() == '#') continue;
     absl::StatusOr<Line> parsed = ParseLine(line);
     // The line itself is not shown, as it may hold a token by mistake.
-    if (!parsed.ok()) wrong.push_back(absl::StrCat("line ", number, " ", parsed.status().message()));
-    if (parsed.ok()) callers.lines_.push_back(*std::move(parsed));
+    if (!parsed.ok()) {
+      wrong.push_back(absl::StrCat("line ", number, " ", parsed.status().message()));
+      continue;
+    }
+    const auto [first, is_new] = proofs.try_emplace({parsed->token, parsed->token ? "" : parsed->name}, number);
+    if (!is_new) {
+      const char* const proof = parsed->token ? "token" : "certificate";
+      wrong.push_back(absl::StrCat("line ", number, " must have another ", proof, " than line ", first->second));
+    }
+    callers.lines_.push_back(*std::move(parsed));
   }
   if (!wrong.empty()) return absl::InvalidArgumentError(absl::StrJoin(wrong, "; "));
   if (callers.lines_.empty()) return absl::InvalidArgumentError("no line names a caller");

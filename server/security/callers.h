@@ -5,7 +5,8 @@
 //   monitor   certificate               info
 //
 // A token is known by its hash only. It must be random, with 128 bits or more: a hash of a password could be guessed.
-// Two lines may have one name, so that an old and a new token hold side by side while clients change over.
+// Two lines may have one name, so that an old and a new token hold side by side while clients change over. No two lines
+// have one token or one certificate, because only one of them could count.
 
 #ifndef RICOCHET_SERVER_SECURITY_CALLERS_H_
 #define RICOCHET_SERVER_SECURITY_CALLERS_H_

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "absl/strings/ascii.h"
 #include "ricochet/v1/impact_service.pb.h"
 
 namespace ricochet::server {
@@ -68,6 +69,16 @@ TEST(Callers, EveryWrongLineIsNamedByItsNumberOnly) {
     EXPECT_THAT(message, HasSubstr("line " + std::to_string(line) + " must be NAME"));
   EXPECT_THAT(message, Not(HasSubstr("line 1 ")));
   EXPECT_THAT(message, Not(HasSubstr("secret")));
+}
+
+TEST(Callers, NoTwoLinesHaveOneTokenOrOneCertificate) {
+  const std::string hash = kHashOfAbc;
+  const auto callers =
+      Callers::Parse("a sha256:" + hash + " solve\nlab certificate info\nb sha256:" + absl::AsciiStrToUpper(hash) +
+                     " info\nlab certificate solve\n");
+  EXPECT_EQ(callers.status().message(),
+            "line 3 must have another token than line 1; line 4 must have another certificate than line 2");
+  EXPECT_TRUE(Callers::Parse("a sha256:" + hash + " solve\na certificate solve\n").ok());
 }
 
 TEST(Callers, FileWithoutCallersIsRefused) {
