@@ -85,7 +85,10 @@ Server::Server(const Options& options, std::shared_ptr<Auth> auth, const Log& lo
           [this](grpc::ServerContext& context, BoundedBatches& batches) {
             return service_.AnswerBatches(context, batches);
           },
-          options.limits, unread_) {}
+          options.limits, unread_) {
+  if (auth_ == nullptr) return;
+  auth_->OnRefusal([this](const std::string& reason) { observer_.metrics().Refused(reason); });
+}
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, const Log& log) {
   Options fitting = options;

@@ -6,9 +6,17 @@
 
 namespace ricochet::server {
 
-bool IsTransportReason(absl::string_view reason) {
-  return reason == kMalformedReason || reason == kThreadsReason || reason == kUnknownMethodReason ||
-         reason == kRefusedByGrpcReason;
+const std::vector<std::string>& Reasons() {
+  static const auto* const all = [] {
+    auto* const reasons =
+        new std::vector<std::string>{kMalformedReason,     kThreadsReason,         kUnknownMethodReason,
+                                     kRefusedByGrpcReason, kUnauthenticatedReason, kPermissionDeniedReason};
+    for (int i = v1::ERROR_REASON_UNSPECIFIED + 1; i < v1::ErrorReason_ARRAYSIZE; ++i) {
+      reasons->push_back(ReasonName(static_cast<ErrorReason>(i)));
+    }
+    return reasons;
+  }();
+  return *all;
 }
 
 std::string ReasonName(ErrorReason reason) {

@@ -5,20 +5,22 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
-#include "absl/strings/string_view.h"
 #include "ricochet/error.h"
 
 namespace ricochet::server {
 
-// Reasons of calls that gRPC ends before a handler sees them.
+// Reasons of calls that end before a handler sees them: by gRPC, or because of who makes them.
 inline constexpr char kMalformedReason[] = "MALFORMED_REQUEST";
 inline constexpr char kThreadsReason[] = "THREADS_EXHAUSTED";
 inline constexpr char kUnknownMethodReason[] = "UNKNOWN_METHOD";
 inline constexpr char kRefusedByGrpcReason[] = "REFUSED_BY_GRPC";
+inline constexpr char kUnauthenticatedReason[] = "UNAUTHENTICATED";
+inline constexpr char kPermissionDeniedReason[] = "PERMISSION_DENIED";
 
-// Returns true for one of the four reasons above.
-bool IsTransportReason(absl::string_view reason);
+// Returns every reason that a failed call can have: those above, and those of google.rpc.ErrorInfo.
+const std::vector<std::string>& Reasons();
 
 // Returns a reason as google.rpc.ErrorInfo spells it, such as "TOO_MANY_CALLS"; an empty text for none.
 std::string ReasonName(ErrorReason reason);

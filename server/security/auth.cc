@@ -8,6 +8,8 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "server/base/request_id.h"
+#include "server/base/telemetry_names.h"
 #include "server/security/peer.h"
 
 namespace ricochet::server {
@@ -49,8 +51,12 @@ std::shared_ptr<const Callers> Auth::Current() {
     next_look_ = now + kBetweenLooks;
     if (file_.HasChanged()) {
       const absl::Status loaded = Load();
-      log_.Write(loaded.ok() ? LogLevel::kInfo : LogLevel::kError, loaded.ok() ? "tokens read" : "tokens not read",
-                 {{"file", file_.path()}, {"reason", std::string(loaded.message())}});
+      if (loaded.ok()) {
+        log_.Write(LogLevel::kInfo, "tokens read", {{"file", file_.path()}});
+      } else {
+        log_.Write(LogLevel::kError, "tokens not read",
+                   {{"file", file_.path()}, {"reason", std::string(loaded.message())}});
+      }
     }
   }
   return callers_;
@@ -78,15 +84,13 @@ absl::Status Auth::Check(const Evidence& evidence) {
   if (scope.has_value() && scope->empty()) return absl::OkStatus();
   const Finding finding = Find(evidence);
   if (!finding.caller.has_value()) {
-    LogRefusal(evidence, "", finding.reason);
-    return absl::UnauthenticatedError("the call is not authenticated");
+    return Refuse(absl::UnauthenticatedError("the call is not authenticated"), evidence, "", finding.reason);
   }
   const std::vector<std::string>& scopes = finding.caller->scopes;
   const auto allows = [&scope](const std::string& one) { return one == "all" || one == scope; };
   if (scope.has_value() && std::any_of(scopes.begin(), scopes.end(), allows)) return absl::OkStatus();
-  LogRefusal(evidence, finding.caller->name,
-             scope.has_value() ? absl::StrCat("scope ", *scope, " is missing") : "unknown method");
-  return absl::PermissionDeniedError("the caller may not call this method");
+  return Refuse(absl::PermissionDeniedError("the caller may not call this method"), evidence, finding.caller->name,
+                scope.has_value() ? absl::StrCat("scope ", *scope, " is missing") : "unknown method");
 }
 
 std::string Auth::CallerOf(const grpc::ServerContext& context) {
@@ -100,13 +104,18 @@ std::string Auth::CallerOf(const grpc::ServerContext& context) {
   return finding.caller.has_value() ? finding.caller->name : "";
 }
 
-void Auth::LogRefusal(const Evidence& evidence, const std::string& caller, const std::string& reason) const {
+absl::Status Auth::Refuse(absl::Status refusal, const Evidence& evidence, const std::string& caller,
+                          const std::string& why) const {
+  count_(absl::IsUnauthenticated(refusal) ? kUnauthenticatedReason : kPermissionDeniedReason);
   log_.Write(LogLevel::kWarning, "call refused",
              {{"method", evidence.method},
+              {"status", absl::StatusCodeToString(refusal.code())},
+              {"request_id", RequestIdOr(evidence.request_id)},
               {"caller", caller},
               {"certificate", absl::StrJoin(evidence.certificate_names, ",")},
               {"user_agent", evidence.user_agent},
-              {"reason", reason}});
+              {"reason", why}});
+  return refusal;
 }
 
 }  // namespace ricochet::server

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/base/request_id.h"
+
 namespace ricochet::server {
 namespace {
 
@@ -82,6 +84,7 @@ void Check(void* state, grpc_auth_context* connection, const grpc_metadata* head
     const std::string name = Text(header->key);
     if (name == ":path") evidence.method = Text(header->value);
     if (name == "user-agent") evidence.user_agent = Text(header->value);
+    if (name == kRequestIdHeader) evidence.request_id = Text(header->value);
     if (name == "authorization") evidence.authorization.push_back(Text(header->value));
   }
   const absl::Status status = static_cast<Auth*>(state)->Check(evidence);

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "absl/algorithm/container.h"
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "ricochet/engine_info.h"
-#include "ricochet/v1/error_reason.pb.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/base/telemetry_names.h"
 
@@ -57,9 +57,7 @@ std::string MethodLabel(const std::string& method) {
 
 // Returns the reason if this program names it, so that the label stays one of few.
 std::string ReasonLabel(const std::string& reason) {
-  v1::ErrorReason known = v1::ERROR_REASON_UNSPECIFIED;
-  const bool ours = v1::ErrorReason_Parse(absl::StrCat("ERROR_REASON_", reason), &known) || IsTransportReason(reason);
-  return ours ? reason : "OTHER";
+  return absl::c_linear_search(Reasons(), reason) ? reason : "OTHER";
 }
 
 }  // namespace
@@ -84,7 +82,7 @@ struct Metrics::Counted {
       AddHistograms("grpc_server_call_sent_total_compressed_message_size_bytes", "Bytes of the messages of an answer.");
   Histogram& queued =
       AddHistograms("ricochet_queue_wait_seconds", "Time that an admitted call waited for a place.").Add({}, Seconds());
-  Counter& points = AddCounter("ricochet_points_total", "Points of sweeps that were sent.");
+  Counter& points = AddCounter("ricochet_points_total", "Points of sweeps and rows of batches.");
   Counter& chunks = AddCounter("ricochet_chunks_total", "Messages of streams that were sent.");
   Counter& chunk_bytes = AddCounter("ricochet_chunk_bytes_total", "Bytes in messages of streams that were sent.");
   Counter& stalls = AddCounter("ricochet_stalls_total", "Long waits for a caller to read.");
@@ -131,6 +129,9 @@ Metrics::Metrics() : counted_(std::make_unique<Counted>()), asked_(std::make_uni
       .Register(counted_->registry)
       .Add({{"version", ThisEngine().version}, {"engine", ThisEngine().fingerprint}})
       .Set(1);
+  // A series that began with its first event would hide that event from rate() and increase().
+  for (const std::string& reason : Reasons()) counted_->refusals.Add({{"reason", reason}});
+  for (size_t model = 1; model < size_t{kModelCount}; ++model) counted_->solved.Add({{"model", ModelName(model)}});
 }
 
 Metrics::~Metrics() = default;
@@ -151,11 +152,15 @@ void Metrics::Ended(const CallRecord& call) {
   counted_->chunk_bytes.Increment(static_cast<double>(call.chunk_bytes));
   counted_->stalls.Increment(static_cast<double>(call.stalls));
   if (call.first_index > 0) counted_->resumes.Increment();
-  if (!call.reason.empty()) counted_->refusals.Add({{"reason", ReasonLabel(call.reason)}}).Increment();
+  if (!call.reason.empty()) Refused(call.reason);
   for (size_t model = 0; model < call.solved_by_model.size(); ++model) {
     const int64_t solved = call.solved_by_model[model];
     if (solved > 0) counted_->solved.Add({{"model", ModelName(model)}}).Increment(static_cast<double>(solved));
   }
+}
+
+void Metrics::Refused(const std::string& reason) {
+  counted_->refusals.Add({{"reason", ReasonLabel(reason)}}).Increment();
 }
 
 void Metrics::AddGauge(const std::string& name, const std::string& help, std::function<double()> value) {

@@ -31,6 +31,9 @@ class Metrics {
   // Counts everything else of a call that has ended; also the points of a sweep, which do not show while it runs.
   void Ended(const CallRecord& call);
 
+  // Counts a call that was refused for one of Reasons(), and of which no record is kept.
+  void Refused(const std::string& reason);
+
   // These two add a metric whose value is asked for at each scrape, on the thread of the scrape. `value` must be valid
   // as long as this object. A counter never falls.
   void AddGauge(const std::string& name, const std::string& help, std::function<double()> value);

@@ -108,8 +108,15 @@ TEST_F(AuthTest, TokensAbove512BytesAreNotLookedAt) {
 
 TEST_F(AuthTest, ARefusalTellsTheLogWhyAndTheCallerNothing) {
   Open(std::string("lab ") + kAbc + " info");
-  const absl::Status denied = auth_->Check({.method = kSolve, .authorization = {"Bearer abc"}, .user_agent = "agent"});
+  std::vector<std::string> counted;
+  auth_->OnRefusal([&counted](const std::string& reason) { counted.push_back(reason); });
+  const absl::Status denied =
+      auth_->Check({.method = kSolve, .authorization = {"Bearer abc"}, .user_agent = "agent", .request_id = "job-7"});
   EXPECT_EQ(denied.message(), "the caller may not call this method");
+  EXPECT_EQ(Check({.method = kSolve}), StatusCode::kUnauthenticated);
+  EXPECT_THAT(counted, testing::ElementsAre("PERMISSION_DENIED", "UNAUTHENTICATED"));
+  EXPECT_THAT(text_.str(),
+              HasSubstr("method=/ricochet.v1.ImpactService/Solve status=PERMISSION_DENIED request_id=job-7"));
   EXPECT_THAT(text_.str(), HasSubstr("caller=token:lab"));
   EXPECT_THAT(text_.str(), HasSubstr("reason=\"scope solve is missing\""));
   EXPECT_THAT(text_.str(), Not(HasSubstr("abc")));

@@ -78,6 +78,15 @@ TEST(Metrics, TextOfCallersIsNeverALabel) {
   EXPECT_THAT(text, Not(HasSubstr("MADE_UP")));
 }
 
+TEST(Metrics, EveryReasonAndModelHasASeriesFromTheStart) {
+  Metrics metrics;
+  EXPECT_THAT(metrics.Text(), HasSubstr("ricochet_refusals_total{reason=\"UNREAD_LIMIT\"} 0\n"));
+  EXPECT_THAT(metrics.Text(), HasSubstr("ricochet_solved_total{model=\"impact_law\"} 0\n"));
+  EXPECT_THAT(metrics.Text(), Not(HasSubstr("unspecified")));
+  metrics.Refused("UNAUTHENTICATED");
+  EXPECT_THAT(metrics.Text(), HasSubstr("ricochet_refusals_total{reason=\"UNAUTHENTICATED\"} 1\n"));
+}
+
 TEST(Metrics, AGaugeIsAskedAtEachScrape) {
   Metrics metrics;
   double held = 1.0;
