@@ -1,7 +1,6 @@
 #include "client/batch_session.h"
 
 #include <cstdint>
-#include <thread>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -73,32 +72,19 @@ bool RemoteBatches::Write(const BatchRows& rows, size_t first, size_t count) {
   return call_->stream->Write(request_);
 }
 
-// Asks for all that remains by one call, and reads the answers as far as they come. The call is over after an error.
+// Asks for all that remains by one call. No piece is sent before the answer to the last one has come: the server reads
+// none while it writes, and behind a proxy what waits to be read would keep back what the answer waits for. The call is
+// over after an error.
 absl::Status RemoteBatches::Exchange(Remaining& remaining, Attempts& attempts) {
   if (!call_.has_value()) call_.emplace(options_, start_, attempts.server());
-  std::thread writer;
-  if (PieceAt(remaining.first, remaining.end) == remaining.end - remaining.first) {
-    Write(remaining.rows, remaining.first, remaining.end - remaining.first);
-  } else {
-    // Another thread writes, because a server whose answer is not read reads no further piece.
-    writer = std::thread([this, &rows = remaining.rows, first = remaining.first, end = remaining.end]() mutable {
-      for (; first < end && Write(rows, first, PieceAt(first, end)); first += PieceAt(first, end)) {
-      }
-    });
-  }
-  absl::Status taken = ReadAll(remaining, attempts);
-  if (!taken.ok()) call_->context.get().TryCancel();
-  if (writer.joinable()) writer.join();
-  if (taken.ok()) return taken;
-  const absl::Status ended = End();
-  return absl::IsUnavailable(taken) ? ended : taken;
-}
-
-// Errors: UNAVAILABLE if the call has ended; its own status then says why.
-absl::Status RemoteBatches::ReadAll(Remaining& remaining, Attempts& attempts) {
   do {
-    if (!call_->stream->Read(&response_)) return absl::UnavailableError("the call has ended");
-    if (absl::Status wrong = ReadAnswer(remaining); !wrong.ok()) return wrong;
+    const size_t count = PieceAt(remaining.first, remaining.end);
+    if (!Write(remaining.rows, remaining.first, count) || !call_->stream->Read(&response_)) return End();
+    if (absl::Status wrong = ReadAnswer(remaining); !wrong.ok()) {
+      call_->context.get().TryCancel();
+      static_cast<void>(End());
+      return wrong;
+    }
     attempts.Succeeded();
   } while (remaining.first < remaining.end);
   return absl::OkStatus();

@@ -1,7 +1,7 @@
 // RemoteBatches: the batches of one session, asked of a server over one call that stays open.
 //
-// A batch that is longer than a piece is sent piece by piece, while the answers to the pieces before are read. A call
-// that breaks off is replaced by another, which goes on at the first piece without an answer.
+// A batch that is longer than a piece is sent piece by piece, each after the answer to the one before. A call that
+// breaks off is replaced by another, which goes on at the first piece without an answer.
 
 #ifndef RICOCHET_CLIENT_BATCH_SESSION_H_
 #define RICOCHET_CLIENT_BATCH_SESSION_H_
@@ -27,7 +27,7 @@
 namespace ricochet {
 
 // The most rows of one message: so many that its columns, in or out, take a mebibyte. Servers take more, but smaller
-// pieces let sending, computing and receiving overlap.
+// pieces keep the memory of both sides small.
 size_t RowsOfAPiece(const BatchSetup& setup);
 
 class RemoteBatches final : public BatchSession::Worker {
@@ -66,7 +66,6 @@ class RemoteBatches final : public BatchSession::Worker {
   size_t PieceAt(size_t first, size_t end) const { return std::min(piece_, end - first); }
   bool Write(const BatchRows& rows, size_t first, size_t count);
   absl::Status Exchange(Remaining& remaining, Attempts& attempts);
-  absl::Status ReadAll(Remaining& remaining, Attempts& attempts);
   absl::Status ReadAnswer(Remaining& remaining);
   // Ends the call and returns its status.
   absl::Status End();

@@ -161,6 +161,22 @@ TEST(Client, TakesTheLongestHistory) {
   EXPECT_TRUE(answer.ok()) << answer.status();
 }
 
+TEST(Client, ABatchOfManyPiecesFailsWithTheServersOwnError) {
+  const ServerProcess server;
+  const Client client = Client::Connect({.target = server.address()}).value();
+  const std::vector<double> frictions(1'000'000, 0.1);
+  std::vector<double> column(frictions.size());
+  std::vector<Regime> regimes(frictions.size());
+  std::vector<RowStatus> statuses(frictions.size());
+  BatchRows rows = {.inputs = {frictions}, .outputs = {absl::MakeSpan(column)}};
+  rows.regimes = absl::MakeSpan(regimes);
+  rows.statuses = absl::MakeSpan(statuses);
+  const auto answer = client.SolveBatch(
+      {.scene = AnyScene(), .fields = {"friction.kinetic_coefficient"}, .columns = {"coefficients.nwton"}}, rows);
+  EXPECT_EQ(answer.status().code(), absl::StatusCode::kInvalidArgument) << answer.status();
+  EXPECT_THAT(ViolationsOf(answer.status()), ElementsAre(testing::Field(&Violation::field, "columns[0]")));
+}
+
 TEST(Client, ADeadlineEndsASweep) {
   const ServerProcess server;
   const Client client = Client::Connect({.target = server.address(), .sweep_deadline = milliseconds(100)}).value();
