@@ -12,9 +12,15 @@
 set -eu
 
 if [ $# -lt 3 ]; then
-  sed -n '4,7s/^# //p' "$0" >&2
+  sed -n '/^# usage:/,/^#$/s/^# //p' "$0" >&2
   exit 2
 fi
+case $2 in
+  '' | 0* | *[!0-9]*)
+    echo "submit.sh: SHARDS = $2: must be an integer from 1 on" >&2
+    exit 2
+    ;;
+esac
 here=$(cd "$(dirname "$0")" && pwd)
 file=$1
 shards=$2
