@@ -15,7 +15,7 @@ import time
 
 import grpc
 
-from calls import channel, cheap, code_of, stub
+from calls import LIMIT_S, PENDULUM, channel, cheap, code_of, request, stub
 from framework import (
     Process, Server, Skipped, check, command_line, in_threads, main, require, tools, wait_until)
 
@@ -236,6 +236,44 @@ def headless_service():
         figures = try_pool(servers, target, ",".join(servers.addresses))
         require(names.asked, "nobody asked for the addresses of the name")
         return figures
+
+
+PIECES = 24  # Of a mebibyte each, more than nginx lets through in one call unless it is told to.
+BATCH_RULE = "one call takes 24 MiB of batches, each of which is sent after the answer to the one before"
+
+
+def try_batches(proxy_before):
+    piece = request("SolveBatches", f"""setup {{ scene {{ {PENDULUM} }} fields: "friction.kinetic_coefficient"
+      columns: "coefficients.newton" }}""")
+    piece.inputs.append(struct.pack("<d", 0.1) * (1 << 17))
+    may_send = threading.Semaphore(1)
+
+    def pieces():
+        for _ in range(PIECES):
+            may_send.acquire(timeout=LIMIT_S)
+            yield piece
+
+    def read(on):
+        for answer in on.SolveBatches(pieces(), timeout=LIMIT_S):
+            sizes.append(len(answer.outputs[0]))
+            may_send.release()
+
+    sizes = []
+    with Servers() as servers, proxy_before(servers.addresses) as proxy, channel(proxy.address) as line:
+        code = code_of(lambda: read(stub(line)))
+    require(code == grpc.StatusCode.OK, f"after {len(sizes)} answers the call ended with {code.name}")
+    require(sizes == [1 << 20] * PIECES, f"the answers have {sizes} bytes")
+    return {"pieces": PIECES}
+
+
+@check("batches behind HAProxy", BATCH_RULE)
+def batches_behind_haproxy():
+    return try_batches(haproxy)
+
+
+@check("batches behind nginx", BATCH_RULE)
+def batches_behind_nginx():
+    return try_batches(nginx)
 
 
 def checksum(*arguments, events=()):
