@@ -23,9 +23,11 @@ namespace ricochet::cli {
 namespace {
 
 // A connection holds a thread while it is open, and a browser opens six. The others are for those who send half of a
-// request and then nothing, which takes kSlowest.
-constexpr char kThreads[] = "64";
+// request or nothing at all, which takes kSlowest; civetweb takes a thread for them before it knows who asks.
+constexpr char kThreads[] = "512";
 constexpr char kSlowest[] = "5000";  // ms.
+
+constexpr char kBearer[] = "Bearer ";
 
 constexpr size_t kMostBodyBytes = size_t{1} << 20;
 
@@ -131,7 +133,10 @@ absl::Status WebServer::Check(const Exchange& exchange) const {
     return absl::PermissionDeniedError(absl::StrCat("Origin ", origin, ": must be http://", authority(), " or absent"));
   }
   const std::string header = exchange.Header("Authorization");
-  if (IsSame(header, "Bearer " + token_) || IsSame(exchange.Query("token"), token_)) return absl::OkStatus();
+  absl::string_view token = header;
+  const bool is_bearer = absl::StartsWithIgnoreCase(token, kBearer);
+  if (is_bearer) token.remove_prefix(sizeof(kBearer) - 1);
+  if ((is_bearer && IsSame(token, token_)) || IsSame(exchange.Query("token"), token_)) return absl::OkStatus();
   return absl::UnauthenticatedError(
       "the token must be that which ricochet explore has printed, as ?token=... or as Authorization: Bearer ...");
 }
