@@ -13,6 +13,7 @@
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/io/csv_row.h"
+#include "client/cli/io/one_table.h"
 #include "client/cli/plot/picture_input.h"
 #include "client/cli/report/bounds_plot.h"
 #include "client/cli/report/derivatives_report.h"
@@ -35,8 +36,8 @@ constexpr char kExample[] = R"(Example: the coefficients that friction allows a 
   ...
 "sharp": the contact returns no more energy than it stored. "energy only": the kinetic energy does not grow.
 --range, which may be repeated, also gives guaranteed ranges over all scenes whose fields lie in the given ranges.
-CSV has one row for each quantity, at full precision; with --certified, one row for each proved number, and with
---derivatives one for each derivative.
+CSV has one row for each quantity, at full precision, with --certified one for each proved number, and with
+--derivatives one for each derivative. It is one table, so that these two exclude each other and --range.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct BoundsOptions {
@@ -216,8 +217,12 @@ absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
 }
 
 absl::Status RunBounds(const BoundsOptions& options) {
-  if (AsksForNames(options.ranges)) return ListNames(options.scene, FieldPaths);
+  if (AsksForNames(options.ranges)) return ListNames(options.common, options.scene, FieldPaths);
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
+  absl::Status table = CheckOneTable(options.common.format, {{"--range", !options.ranges.empty()},
+                                                             {"--certified", !options.certified.empty()},
+                                                             {"--derivatives", options.derivatives.any()}});
+  if (!table.ok()) return table;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<BoundsRequest> request = ReadRequest(options);

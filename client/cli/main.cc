@@ -7,6 +7,7 @@
 #include <csignal>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "client/cli/input/command_options.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/flag_names.h"
+#include "client/cli/io/output.h"
 #include "client/cli/program.h"
 #include "client/cli/terminal/exit_code.h"
 #include "client/cli/terminal/grpc_log.h"
@@ -43,13 +45,23 @@ int main(int argc, char** argv) {
   ricochet::cli::Command command;
   const std::unique_ptr<CLI::App> app = ricochet::cli::MakeProgram({argv, argv + argc}, command);
   std::vector<std::string> words = ricochet::cli::WithHelpAsFlag({argv + 1, argv + argc});
+  if (const std::string wrong = ricochet::cli::ValueError(*app, words); !wrong.empty()) {
+    std::cerr << "ricochet: " << wrong << "\n";
+    return ricochet::cli::kUsage;
+  }
   std::reverse(words.begin(), words.end());  // CLI11 takes them from the end.
   try {
     app->parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     // Help about a subcommand that does not exist is an error.
     const bool is_answer = !app->get_subcommands().empty() || app->remaining().empty();
-    if (error.get_exit_code() == 0 && is_answer) return app->exit(error);
+    if (error.get_exit_code() == 0 && is_answer) {
+      std::ostringstream help;
+      app->exit(error, help);
+      const absl::Status written = ricochet::cli::WriteFile("-", help.str());
+      ricochet::cli::PrintError(written);
+      return ricochet::cli::ExitCodeOf(written);
+    }
     std::cerr << (argc == 1 ? app->help() : absl::StrCat("ricochet: ", ricochet::cli::UsageError(*app, error), "\n"));
     return ricochet::cli::kUsage;
   }

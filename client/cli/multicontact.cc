@@ -1,4 +1,5 @@
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -28,7 +29,8 @@ constexpr char kExample[] = R"(Example: a block that falls flat on two corners.
   ...
 --method names what to compute: orders of single impacts (at most 6 contacts), springs (in a plane), possible (bounds on
 every outcome). The default is each that the scene allows. `ricochet scene list` names templates with several contacts.
-CSV has one row for each outcome, each sample of --stiffness-ratio, and each end of the bounds.
+CSV has one row for each outcome, each sample of --stiffness-ratio, and each end of the bounds, which alone have values
+of a --function.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct MultiContactOptions {
@@ -101,14 +103,44 @@ absl::StatusOr<MultiContactRequest> ReadRequest(const MultiContactOptions& optio
   return request;
 }
 
+// Errors: INVALID_ARGUMENT for an option whose method is not among those asked for.
+absl::Status CheckMethods(const MultiContactOptions& options) {
+  const std::vector<std::string>& methods = options.methods;
+  const auto lacks = [&methods](const char* method) {
+    return !methods.empty() && std::find(methods.begin(), methods.end(), method) == methods.end();
+  };
+  if (!options.outputs.empty() && lacks("possible")) {
+    return absl::InvalidArgumentError("--function needs --method possible, which gives its bounds");
+  }
+  if (!options.stiffness_ratio.empty() && lacks("springs")) {
+    return absl::InvalidArgumentError("--stiffness-ratio needs --method springs");
+  }
+  return absl::OkStatus();
+}
+
+// Errors: INVALID_ARGUMENT for a function with the name of another output.
+absl::Status CheckNames(const MultiContactRequest& request, const MultiContactAnswer& answer) {
+  for (const LinearOutput& output : request.outputs) {
+    const auto has_its_name = [&output](const PossibleRange& range) { return range.output == output.name; };
+    if (std::count_if(answer.possible.begin(), answer.possible.end(), has_its_name) > 1) {
+      return InputError("--function", output.name, "have a name that no other output has");
+    }
+  }
+  return absl::OkStatus();
+}
+
 absl::Status RunMultiContact(const MultiContactOptions& options) {
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
+  if (absl::Status status = CheckMethods(options); !status.ok()) return status;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<MultiContactRequest> request = ReadRequest(options);
   if (!request.ok()) return request.status();
   const absl::StatusOr<MultiContactResponse> response = (*solver)->MultiContact(*request);
   if (!response.ok()) return response.status();
+  for (const MultiContactAnswer& answer : response->answers) {
+    if (absl::Status status = CheckNames(*request, answer); !status.ok()) return status;
+  }
   absl::Status written = WriteAnswer(
       options.common, *response, [&] { return MultiContactText(*request, *response); },
       [&] { return MultiContactCsv(*request, *response); });

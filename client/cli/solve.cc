@@ -13,6 +13,7 @@
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/input/short_name.h"
+#include "client/cli/io/one_table.h"
 #include "client/cli/io/output.h"
 #include "client/cli/plot/picture_input.h"
 #include "client/cli/report/derivatives_report.h"
@@ -44,7 +45,7 @@ json have all rows, and csv prints the summary on standard error. A row that lac
 INVALID and the first have their reasons; the others are still solved.
 CSV has one row with every number of the outcome, named by its path. Instead it has one row for each state with
 --history, for each sample with --force-history, for each effect with --explain, for each number with --certified, and
-for each derivative with --derivatives.
+for each derivative with --derivatives. It is one table, so that these options exclude each other and --both-ends.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct SolveOptions {
@@ -89,6 +90,15 @@ bool AsksForMore(const SolveOptions& options) {
          options.both_ends || options.derivatives.any();
 }
 
+absl::Status CheckTable(const SolveOptions& options) {
+  return CheckOneTable(options.common.format, {{"--history", !options.history.empty()},
+                                               {"--force-history", !options.force_history.empty()},
+                                               {"--explain", options.explain},
+                                               {"--certified", !options.certified.empty()},
+                                               {"--derivatives", options.derivatives.any()},
+                                               {"--both-ends", options.both_ends}});
+}
+
 // Prints only the plan.
 absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
@@ -129,6 +139,7 @@ absl::Status RunSolve(const SolveOptions& options) {
     return absl::InvalidArgumentError("--column and --skip-column need --data FILE.csv");
   }
   if (options.plan_only) return RunPlan(options, **solver, *scene, *demand);
+  if (absl::Status status = CheckTable(options); !status.ok()) return status;
   SolveRequest request{
       .scene = *scene, .inadmissible_is_error = options.strict, .demand = *demand, .both_ends = options.both_ends};
   const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);

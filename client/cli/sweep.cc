@@ -300,8 +300,8 @@ absl::StatusOr<std::optional<int>> ReadThreads(const std::string& text) {
 }
 
 absl::Status RunSweep(const SweepOptions& options) {
-  if (AsksForNames(options.axes)) return ListNames(options.scene, FieldPaths);
-  if (AsksForNames(options.columns)) return ListNames(options.scene, Columns);
+  if (AsksForNames(options.axes)) return ListNames(options.common, options.scene, FieldPaths);
+  if (AsksForNames(options.columns)) return ListNames(options.common, options.scene, Columns);
   const Format format = options.common.format;
   if (options.summary_only && (format == Format::kNpy || format == Format::kNetcdf)) {
     return absl::InvalidArgumentError("--summary-only needs --format text, json, jsonl or csv: a summary is no array");

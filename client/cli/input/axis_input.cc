@@ -101,12 +101,16 @@ absl::StatusOr<IndexRange> ParseRange(const std::string& text) {
 
 bool AsksForNames(const std::vector<std::string>& values) { return values == std::vector<std::string>{"?"}; }
 
-absl::Status ListNames(const SceneOptions& options, std::vector<std::string> (*names_of)(const Scene&)) {
+absl::Status ListNames(const CommonOptions& common, const SceneOptions& options,
+                       std::vector<std::string> (*names_of)(const Scene&)) {
+  if (common.format != Format::kText) {
+    return InputError("--format", FormatName(common.format), "be text, because ? lists names");
+  }
   const absl::StatusOr<Scene> scene = options.any() ? ReadScene(options) : Scene{.system = Pendulum()};
   if (!scene.ok()) return scene.status();
   std::string text;
   for (const std::string& name : names_of(*scene)) absl::StrAppend(&text, name, "\n");
-  return WriteOutput({}, text);
+  return WriteOutput(common, text);
 }
 
 }  // namespace ricochet::cli

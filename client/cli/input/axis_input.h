@@ -37,7 +37,9 @@ absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text, const Scene&
 bool AsksForNames(const std::vector<std::string>& values);
 
 // Prints the names of the scene, one a line; without a scene those of a pendulum.
-absl::Status ListNames(const SceneOptions& options, std::vector<std::string> (*names_of)(const Scene&));
+// Errors: INVALID_ARGUMENT for another format than text, and those of ReadScene and Output.
+absl::Status ListNames(const CommonOptions& common, const SceneOptions& options,
+                       std::vector<std::string> (*names_of)(const Scene&));
 
 }  // namespace ricochet::cli
 

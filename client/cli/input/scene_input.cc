@@ -101,8 +101,11 @@ absl::StatusOr<Scene> MechanismFromFlags(const SceneOptions& options) {
   if (!mechanism.ok()) return mechanism.status();
   constexpr int64_t kMostCoordinates = 1'000'000;
   for (const std::string& kept : options.kept) {
-    const absl::StatusOr<int64_t> coordinate = ParseCount(kept, "--keep", kMostCoordinates);
+    const absl::StatusOr<int64_t> coordinate = ParseCount(kept, "--keep");
     if (!coordinate.ok()) return coordinate.status();
+    if (*coordinate < 0 || *coordinate > kMostCoordinates) {
+      return InputError("--keep", kept, absl::StrCat("be in [0, ", kMostCoordinates, "]"));
+    }
     mechanism->kept_coordinates.push_back(static_cast<int32_t>(*coordinate));
   }
   mechanism->composite = options.composite;

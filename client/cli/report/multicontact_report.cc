@@ -207,20 +207,21 @@ class CsvTable {
     }
     if (answer.possible.empty()) return;
     AttainedOutcome lower, upper;
+    std::vector<double> asked_lower, asked_upper;
     const size_t contacts = answer.contact_velocity_before_m_s.size();
     for (size_t i = 0; i < answer.possible.size(); ++i) {
       const PossibleRange& range = answer.possible[i];
       const bool is_asked = i + request.outputs.size() >= answer.possible.size();
-      if (is_asked) continue;
-      (i < contacts ? lower.contact_velocity_m_s : lower.velocity).push_back(range.lower);
-      (i < contacts ? upper.contact_velocity_m_s : upper.velocity).push_back(range.upper);
+      (is_asked ? asked_lower : i < contacts ? lower.contact_velocity_m_s : lower.velocity).push_back(range.lower);
+      (is_asked ? asked_upper : i < contacts ? upper.contact_velocity_m_s : upper.velocity).push_back(range.upper);
     }
-    Add(request, state, "possible, lower", std::nullopt, lower);
-    Add(request, state, "possible, upper", std::nullopt, upper);
+    Add(request, state, "possible, lower", std::nullopt, lower, asked_lower);
+    Add(request, state, "possible, upper", std::nullopt, upper, asked_upper);
   }
 
+  // `asked` are the values of the functions that the request asks for.
   void Add(const MultiContactRequest& request, size_t state, const std::string& name, std::optional<double> stiffness,
-           const AttainedOutcome& outcome) {
+           const AttainedOutcome& outcome, const std::vector<double>& asked = {}) {
     CsvRow& row = rows_.emplace_back();
     row.Integer("state", static_cast<int64_t>(state));
     row.Quoted("outcome", name);
@@ -240,6 +241,9 @@ class CsvTable {
     AddNumbers(impulses, ".impulse_n_s", outcome.impulse_n_s, row);
     row.Number("energy_change_j",
                is_outcome && !outcome.contacts.empty() ? std::optional(outcome.energy_change_j) : std::nullopt);
+    std::vector<std::string> functions;
+    for (const LinearOutput& output : request.outputs) AppendCsv(output.name, functions.emplace_back());
+    AddNumbers(functions, "", asked, row);
   }
 
   std::vector<CsvRow> rows_;

@@ -1,6 +1,7 @@
 #include "client/cli/text/usage_error.h"
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <vector>
 
 #include "absl/strings/match.h"
@@ -45,7 +46,17 @@ std::string NoSuchArgument(const CLI::App& app, const std::string& word) {
   const std::string help = absl::StrCat("\n", CallOf(app), " --help lists the options.");
   if (!absl::StartsWith(word, "-")) return absl::StrCat(word, " is not expected here: must follow an option", help);
   const std::string flag = word.substr(0, word.find('='));
-  return absl::StrCat(flag, " is not an option of ", CallOf(app), DidYouMean(flag, FlagNames(app)), help);
+  const std::vector<std::string> names = FlagNames(app);
+  if (std::find(names.begin(), names.end(), flag) != names.end()) {
+    return absl::StrCat(flag, " is not expected here: must stand behind ", CallOf(app), " and before --", help);
+  }
+  // Two dashes and one letter begin too many names.
+  const auto longer = std::find_if(names.begin(), names.end(), [&flag](const std::string& name) {
+    return flag.size() > 3 && absl::StartsWith(name, flag);
+  });
+  return absl::StrCat(flag, " is not an option of ", CallOf(app),
+                      longer == names.end() ? DidYouMean(flag, names) : absl::StrCat("; did you mean ", *longer, "?"),
+                      help);
 }
 
 // The innermost subcommand that was given.
@@ -54,7 +65,38 @@ const CLI::App& Chosen(const CLI::App& app) {
   return chosen.empty() ? app : Chosen(*chosen.front());
 }
 
+// Returns the subcommand of this name; null if there is none.
+const CLI::App* SubcommandNamed(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* sub : app.get_subcommands({})) {
+    if (sub->get_name() == name) return sub;
+  }
+  return nullptr;
+}
+
+// Returns the option that a word such as "--a", "--a=1" or "-o" names; null if there is none.
+const CLI::Option* OptionOf(const CLI::App& app, const std::string& word) {
+  return absl::StartsWith(word, "-") ? app.get_option_no_throw(word.substr(0, word.find('='))) : nullptr;
+}
+
 }  // namespace
+
+std::string ValueError(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* at = &app;
+  for (size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
+    const std::string& word = words[i];
+    if (const CLI::App* sub = SubcommandNamed(*at, word); sub != nullptr) at = sub;
+    const CLI::Option* const option = OptionOf(*at, word);
+    if (option == nullptr) continue;
+    const size_t equals = word.find('=');
+    if (equals == 2) return absl::StrCat(word, ": must be ", word.substr(0, equals), " ", word.substr(equals + 1));
+    if (equals + 1 == word.size()) return absl::StrCat(word, ": must have a value");
+    const bool takes_next = equals == std::string::npos && option->get_items_expected_min() > 0;
+    if (!takes_next || ++i == words.size()) continue;
+    if (!absl::StartsWith(words[i], "--") || OptionOf(*at, words[i]) == nullptr) continue;
+    return absl::StrCat(word, ": must have a value, before the option ", words[i]);
+  }
+  return "";
+}
 
 std::string UsageError(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& chosen = Chosen(app);

@@ -33,6 +33,11 @@ Arguments Plus(Arguments arguments, const Arguments& more) {
 
 Arguments Axis(const std::string& text) { return Plus(kSweep, {"--axis", text}); }
 
+const Arguments kSeveral = {"multicontact", "--scene", "-"};
+constexpr char kTwoFeet[] =
+    "free_bodies { bodies { mass_kg: 1 inertia_com_kg_m2: 0.4 position_m: [0, 1] linear_m_s: [0, -1] } } "
+    "contacts { energetic: 1 relative_stiffness: 1 body: 1 point_m: [-0.5, 0] normal: [0, 1] } "
+    "contacts { energetic: 1 relative_stiffness: 1 body: 1 point_m: [0.5, 0] normal: [0, 1] }";
 const Arguments kSolveInput = {"solve", "--scene", "-"};
 const Arguments kSweepInput = {"sweep", "--request", "-"};
 
@@ -99,6 +104,35 @@ std::vector<BadInput> Flags() {
       {{"help", "solv"}, "solv is not a subcommand; did you mean solve?", ""},
       {Plus(kSolve, {"--require", "finite-durration"}), "did you mean finite-duration?", ""},
       {Plus(kSolve, {"--skip-column", "id"}), "--column and --skip-column need --data FILE.csv", ""},
+      {Plus(kSolve, {"--history", "2", "--explain", "--format", "csv"}),
+       "--history, --explain cannot be combined as csv, which is one table: give one of them, or --format json", ""},
+      {Plus(kSolve, {"--certified", "9", "--derivatives", "newton", "--by", "mu", "--format", "csv"}),
+       "--certified, --derivatives cannot be combined as csv", ""},
+      {Plus(kSolve, {"--both-ends", "--force-history", "2", "-o", "x.csv"}),
+       "--force-history, --both-ends cannot be combined as csv", ""},
+      {{"bounds", "--a", "1", "--certified", "9", "--range", "mu=0:1", "--format", "csv"},
+       "--range, --certified cannot be combined as csv",
+       ""},
+      {{"bounds", "--a", "1", "--derivatives", "newton", "--by", "mu", "--range", "mu=0:1", "--format", "csv"},
+       "--range, --derivatives cannot be combined as csv",
+       ""},
+      {Plus(kSeveral, {"--function", "body_1.x=1,0,0"}), "--function = body_1.x: must have a name that no other output",
+       kTwoFeet},
+      {Plus(kSeveral, {"--function", "f=1,0,0", "--function", "f=0,1,0"}), "--function = f: must have a name that no",
+       kTwoFeet},
+      {Plus(kSeveral, {"--function", "f=1,0,0", "--method", "orders"}), "--function needs --method possible", kTwoFeet},
+      {Plus(kSeveral, {"--stiffness-ratio", "2=1:2", "--method", "orders,possible"}),
+       "--stiffness-ratio needs --method springs", kTwoFeet},
+      {Plus(kSolve, {"--server=", "--tls"}), "--server=: must have a value", ""},
+      {{"solve", "--mu=", "--energetic=1"}, "--mu=: must have a value", ""},
+      {{"solve", "--mu", "--energetic=1"}, "--mu: must have a value, before the option --energetic=1", ""},
+      {Plus(kSolve, {"-o=x.csv"}), "-o=x.csv: must be -o x.csv", ""},
+      {{"solve", "--", "--energetic", "1"},
+       "--energetic is not expected here: must stand behind ricochet solve and",
+       ""},
+      {{"solve", "--mu-s", "1"}, "--mu-s is not an option of ricochet solve; did you mean --mu-static?", ""},
+      {{"sweep", "--column", "?", "--format", "json"}, "--format = json: must be text, because ? lists names", ""},
+      {{"sweep", "--axis", "?", "-o", "x.csv"}, "--format = csv: must be text, because ? lists names", ""},
       {{"solve", "--a", "1", "--mu", "1/0"}, "--mu = 1/0: must have a denominator other than 0", ""},
       {{"solve", "--a", "1", "--mu", "1/2/3"}, "--mu = 1/2/3: must be a number", ""},
   };

@@ -49,6 +49,8 @@ class MechanismTest(RicochetCase):
     def test_what_is_held_and_both_ends(self):
         held = self.outcome(*self.saved("held.npz"), "--keep", "1,2", "--both-ends")
         self.assertEqual(held["rates_after"][1:], QDOT[1:].tolist())
+        self.assertEqual(self.outcome(*self.saved("held.npz"), "--keep", "0")["rates_after"][0], QDOT[0])
+        self.assertIn("must be in [0, 1000000]", self.refused(*self.saved("held.npz"), "--keep=-1"))
         self.assertEqual(held["free_end"]["rates_after"], self.outcome(*self.saved("free.npz"))["rates_after"])
         text = self.made(*self.saved("held.npz"), "--keep", "1,2", "--both-ends")
         for part in ("Mechanism after", "momentum taken", "rate, none held", "Both ends", "With nothing held:"):

@@ -14,6 +14,7 @@
 namespace ricochet::cli {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -84,6 +85,16 @@ TEST_F(CliScene, PrintKeepsScenesWithSeveralContacts) {
       EXPECT_EQ(Run({"multicontact", "--scene", file}).out, answer.out) << name;
     }
   }
+}
+
+TEST_F(CliScene, FunctionsOfSeveralContactsHaveTheirBoundsInCsv) {
+  ASSERT_EQ(Run({"scene", "template", "box_on_two_feet", "-o", "box.textproto"}).exit_code, 0);
+  const CliResult csv =
+      Run({"multicontact", "--scene", "box.textproto", "--function", "twice, x=2,0,0", "--format", "csv"});
+  EXPECT_EQ(csv.exit_code, 0) << csv.err;
+  EXPECT_THAT(csv.out, HasSubstr(",energy_change_j,\"twice, x\"\n0,\"1\","));
+  EXPECT_THAT(csv.out,
+              ContainsRegex("0,\"possible, lower\",.*,-1\\.766[0-9]*\n0,\"possible, upper\",.*,1\\.766[0-9]*\n"));
 }
 
 TEST_F(CliScene, PrintRefusesWhatNoSolverWouldTake) {
