@@ -1,6 +1,7 @@
 #include "proto/wire/fit.h"
 
 #include <CLI/App.hpp>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +31,8 @@ The header of the data names numbers of the scene that differ by row, numbers of
 NAME.sigma for the standard deviation of the measured NAME; --sigma gives one for all rows. An empty cell was not
 measured. Names may be short where they mean one number. The interval of an unknown holds 95 %, by profile likelihood;
 "not seen" means that the data do not tell the unknown by itself.
-CSV has one row for each unknown, with --rows one for each row of the data; json has all.
+CSV has one row for each unknown, with --rows one for each row of the data, and the summary is on standard error; json
+has all.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again, 130 interrupted.)";
 
 struct FitOptions {
@@ -73,7 +75,17 @@ absl::Status ReadSearch(const FitOptions& options, FitRequest& request) {
   return absl::OkStatus();
 }
 
+// Errors: INVALID_ARGUMENT for an option whose part of the answer the format does not have.
+absl::Status CheckFormat(const FitOptions& options) {
+  const Format format = options.common.format;
+  if (options.rows && format != Format::kCsv) return absl::InvalidArgumentError("--rows needs --format csv");
+  if (options.data.region.empty() || format == Format::kJson || !options.picture.file.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "--region needs --format json or --plot FILE: the tables have no border of a region");
+}
+
 absl::Status RunFit(const FitOptions& options) {
+  if (absl::Status status = CheckFormat(options); !status.ok()) return status;
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
   if (!solver.ok()) return solver.status();
@@ -89,6 +101,7 @@ absl::Status RunFit(const FitOptions& options) {
       options.common, *response, [&] { return FitText(*request, *response); },
       [&] { return options.rows ? FitRowsCsv(*request, *response) : FitCsv(*response); });
   if (!written.ok()) return written;
+  if (options.common.format == Format::kCsv) std::fputs(FitSummaryText(*response).c_str(), stderr);
   if (!options.picture.file.empty()) {
     if (absl::Status status = DrawPicture(FitPlot(*request, *response), options.picture); !status.ok()) return status;
   }

@@ -5,7 +5,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
-#include "client/cli/input/command_options.h"
 #include "client/cli/input/short_name.h"
 #include "client/cli/text/number_input.h"
 

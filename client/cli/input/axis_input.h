@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "client/cli/input/command_options.h"
 #include "client/cli/input/scene_input.h"
 #include "ricochet/scene.h"
 #include "ricochet/solver.h"

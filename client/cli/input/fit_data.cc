@@ -1,8 +1,10 @@
 #include "client/cli/input/fit_data.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -30,6 +32,10 @@ struct Column {
   std::string path;
   std::vector<double> values;
 };
+
+absl::Status GivenTwice(const std::string& option, const std::string& name) {
+  return absl::InvalidArgumentError(absl::StrCat(option, " ", name, ": must be given once"));
+}
 
 absl::StatusOr<Column> ColumnOf(const std::string& name, const Scene& scene) {
   const std::vector<std::string> fields = FieldPaths(scene);
@@ -78,16 +84,21 @@ absl::StatusOr<std::vector<Column>> ReadTable(const FitDataOptions& options, con
   if (!reader.ok()) return reader.status();
   if (absl::Status status = reader->Skip(options.skipped_columns); !status.ok()) return status;
   std::vector<std::optional<Column>> columns(reader->header().size());
+  std::set<std::pair<Column::Use, std::string>> given;
   for (size_t i = 0; i < columns.size(); ++i) {
     if (reader->IsSkipped(i)) continue;
     absl::StatusOr<Column> column = ColumnOf(reader->header()[i], scene);
     if (!column.ok()) return column.status();
+    if (!given.emplace(column->use, column->path).second) return GivenTwice("--data, column", reader->header()[i]);
     columns[i] = *std::move(column);
   }
+  bool has_rows = false;
   std::vector<std::string> cells;
   while (reader->NextRow(cells)) {
+    has_rows = true;
     if (absl::Status status = ReadRow(*reader, cells, columns); !status.ok()) return status;
   }
+  if (!has_rows) return absl::InvalidArgumentError("--data has a header but no rows: must have one at least");
   std::vector<Column> kept;
   for (std::optional<Column>& column : columns) {
     if (column.has_value()) kept.push_back(*std::move(column));
@@ -117,6 +128,7 @@ absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, Fit
     if (!start.ok()) return start.status();
     unknown.start = *start;
   }
+  std::set<std::string> bounded;
   for (const std::string& typed : options.bounds) {
     const auto pair = ReadPair("--bound", typed, paths);
     if (!pair.ok()) return pair.status();
@@ -126,6 +138,7 @@ absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, Fit
       return InputError("--bound", typed, "be NAME=LOW:HIGH with the name of an unknown");
     }
     FitUnknown& unknown = request.unknowns[at];
+    if (!bounded.insert(unknown.path).second) return GivenTwice("--bound", unknown.path);
     for (const auto& [text, bound] : {std::pair(pair->second.substr(0, colon), &unknown.low),
                                       std::pair(pair->second.substr(colon + 1), &unknown.high)}) {
       if (text.empty()) continue;
@@ -145,6 +158,7 @@ absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, Fit
 absl::Status ReadSigmas(const FitDataOptions& options, FitRequest& request) {
   std::vector<std::string> paths;
   for (const FitMeasured& measured : request.measured) paths.push_back(measured.path);
+  std::set<std::string> given;
   for (const std::string& typed : options.sigmas) {
     const auto pair = ReadPair("--sigma", typed, paths);
     if (!pair.ok()) return pair.status();
@@ -152,6 +166,11 @@ absl::Status ReadSigmas(const FitDataOptions& options, FitRequest& request) {
     if (at == paths.size()) return InputError("--sigma", typed, "be NAME=SIGMA with the name of a measured column");
     const absl::StatusOr<double> sigma = ParseNumber(pair->second, "--sigma");
     if (!sigma.ok()) return sigma.status();
+    if (!given.insert(pair->first).second) return GivenTwice("--sigma", pair->first);
+    if (!request.measured[at].sigma.empty()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("--sigma ", pair->first, " cannot be combined with a column ", pair->first, kSigmaEnding));
+    }
     request.measured[at].sigma = {*sigma};
   }
   for (const FitMeasured& measured : request.measured) {
@@ -182,6 +201,11 @@ absl::StatusOr<FitRequest> ReadFit(const FitDataOptions& options, const Scene& s
     if (measured == request.measured.end()) {
       return absl::InvalidArgumentError(
           absl::StrCat("--data has ", column.path, kSigmaEnding, " but not ", column.path));
+    }
+    for (size_t row = 0; row < column.values.size(); ++row) {
+      if (std::isnan(measured->values[row]) || !std::isnan(column.values[row])) continue;
+      return absl::InvalidArgumentError(absl::StrCat("--data, row ", row, ": ", column.path, kSigmaEnding,
+                                                     " is missing: must be there where ", column.path, " is"));
     }
     measured->sigma = std::move(column.values);
   }

@@ -86,8 +86,9 @@ std::string ResidualsText(const FitRequest& request, const FitResponse& response
     table.Add(std::move(cells));
   }
   const size_t left_out = response.rows.size() - shown;
-  return absl::StrCat("\nResiduals [sigma]\n", table.Render(2),
-                      left_out == 0 ? "" : absl::StrCat("  ... and ", left_out, " more rows; --rows has them all\n"));
+  return absl::StrCat(
+      "\nResiduals [sigma]\n", table.Render(2),
+      left_out == 0 ? "" : absl::StrCat("  ... and ", left_out, " more rows; --format csv --rows has them all\n"));
 }
 
 std::string NotesText(const FitResponse& response) {
@@ -100,15 +101,24 @@ std::string NotesText(const FitResponse& response) {
   return text.empty() ? "" : absl::StrCat("\nNotes\n", text);
 }
 
-}  // namespace
-
-std::string FitText(const FitRequest& request, const FitResponse& response) {
+// How well the model fits, and whether the data refuse it.
+std::string VerdictText(const FitResponse& response) {
   std::string text = absl::StrCat(response.refused ? "REFUSED: " : "", "chi2 ", Rounded(response.chi2), " with ",
                                   response.degrees_of_freedom, " degrees of freedom");
   if (response.p_value.has_value())
     absl::StrAppend(&text, ", probability ", absl::StrFormat("%.3g", *response.p_value));
-  return absl::StrCat(text, "\n", UnknownsText(response), CorrelationText(response), ResidualsText(request, response),
-                      NotesText(response));
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string FitText(const FitRequest& request, const FitResponse& response) {
+  return absl::StrCat(VerdictText(response), UnknownsText(response), CorrelationText(response),
+                      ResidualsText(request, response), NotesText(response));
+}
+
+std::string FitSummaryText(const FitResponse& response) {
+  return absl::StrCat(VerdictText(response), NotesText(response));
 }
 
 std::string FitCsv(const FitResponse& response) {

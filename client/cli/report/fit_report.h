@@ -12,6 +12,9 @@ namespace ricochet::cli {
 // Unknowns with their intervals, correlations, residuals of the first rows, and notes.
 std::string FitText(const FitRequest& request, const FitResponse& response);
 
+// How well the model fits, whether the data refuse it, and the notes: what the rows of CSV do not say.
+std::string FitSummaryText(const FitResponse& response);
+
 // A row for each unknown.
 std::string FitCsv(const FitResponse& response);
 

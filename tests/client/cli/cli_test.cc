@@ -186,6 +186,11 @@ TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
   }
 }
 
+TEST_F(Cli, HelpThatCannotBeWrittenIsNoSuccess) {
+  EXPECT_EQ(RunShell("\"$R\" solve --help > /dev/full").exit_code, 75);
+  EXPECT_EQ(RunShell("\"$R\" --version > /dev/full").exit_code, 75);
+}
+
 // --- Fits of tables ---
 
 TEST_F(Cli, FitSaysWhatIsWrongWithItsTableAndItsOptions) {
@@ -205,6 +210,22 @@ TEST_F(Cli, FitSaysWhatIsWrongWithItsTableAndItsOptions) {
   EXPECT_THAT(error(table, {"--unknown", "poison", "--sigma", sigma}), HasSubstr("did you mean restitution.poisson?"));
   EXPECT_THAT(error(table, {"--unknown", "poisson", "--sigma", sigma, "--bound", "mu=0:1"}), HasSubstr("--bound"));
   EXPECT_THAT(error(table, {"--unknown", "poisson", "--sigma", sigma, "--loss", "tukey"}), HasSubstr("be squares"));
+  EXPECT_THAT(error(table, {"--unknown", "poisson", "--sigma", sigma, "--sigma", sigma}), HasSubstr("be given once"));
+  EXPECT_THAT(error(table, {"--unknown", "mu", "--bound", "mu=0:1", "--bound", "kinetic_coefficient=0:0.5"}),
+              HasSubstr("--bound friction.kinetic_coefficient: must be given once"));
+  EXPECT_THAT(error("contact_velocity_after.normal_m_s,contact_velocity_after.normal_m_s.sigma\n0.5,0.01\n",
+                    {"--unknown", "poisson", "--sigma", sigma}),
+              HasSubstr("cannot be combined with a column contact_velocity_after.normal_m_s.sigma"));
+  EXPECT_THAT(error("mu,kinetic_coefficient\n0.1,0.1\n", {"--unknown", "poisson"}),
+              HasSubstr("--data, column kinetic_coefficient: must be given once"));
+  EXPECT_THAT(error("contact_velocity_after.normal_m_s\n", {"--unknown", "poisson", "--sigma", sigma}),
+              HasSubstr("--data has a header but no rows"));
+  EXPECT_THAT(error("contact_velocity_after.normal_m_s,contact_velocity_after.normal_m_s.sigma\n0.5,1\n0.6,\n",
+                    {"--unknown", "poisson"}),
+              HasSubstr("--data, row 1: contact_velocity_after.normal_m_s.sigma is missing"));
+  EXPECT_THAT(error(table, {"--unknown", "poisson", "--rows"}), HasSubstr("--rows needs --format csv"));
+  EXPECT_THAT(error(table, {"--unknown", "mu", "--unknown", "poisson", "--region", "mu,poisson", "--format", "csv"}),
+              HasSubstr("--region needs --format json or --plot FILE"));
   EXPECT_THAT(error(table, {"--unknown", "poisson", "--sigma", "contact_velocity_after.normal_m_s=0"}),
               HasSubstr("measured[0].sigma[0] = 0: must be > 0"));
   EXPECT_THAT(error("mass\n1\n", {"--unknown", "poisson"}), HasSubstr("--data has the column \"mass\""));
@@ -212,6 +233,15 @@ TEST_F(Cli, FitSaysWhatIsWrongWithItsTableAndItsOptions) {
   EXPECT_THAT(error(table + "x,0.5\n", {"--unknown", "poisson", "--sigma", sigma}),
               HasSubstr("line 4: planar_contact.tangential_m_s = \"x\": must"));
   EXPECT_THAT(error(table + ",0.5\n", {"--unknown", "poisson", "--sigma", sigma}), HasSubstr("is missing"));
+}
+
+TEST_F(Cli, FitSaysThatTheDataRefuseThePhysicsBesideCsvAsWell) {
+  const CliResult result = Run({"fit", "--a", "0.3", "--b", "1", "--energetic", "1", "--data", "-", "--unknown",
+                                "energetic", "--sigma", "rates_after_rad_s[0]=0.01", "--format", "csv"},
+                               "rates_after_rad_s[0]\n0.5\n0.7\n");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("REFUSED: chi2 "));
+  EXPECT_THAT(result.err, HasSubstr("The data refuse the physics"));
 }
 
 TEST_F(Cli, FitReadsSigmasOfRowsAndLeavesOutWhatWasNotMeasured) {
