@@ -146,17 +146,11 @@ std::string Quoted(const std::string& argument) {
   return plain ? argument : absl::StrCat("'", absl::StrReplaceAll(argument, {{"'", "'\\''"}}), "'");
 }
 
-// Returns `arguments`, the name of the program first, with --resume and without --plot, quoted for a shell. A picture
-// needs all points in one run.
+// Returns `arguments`, the name of the program first, with --resume, quoted for a shell.
 std::string ResumeCommand(const std::vector<std::string>& arguments) {
   std::string command;
-  for (size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] == "--resume" || absl::StartsWith(arguments[i], "--plot=")) continue;
-    if (arguments[i] == "--plot") {
-      ++i;
-      continue;
-    }
-    absl::StrAppend(&command, Quoted(arguments[i]), " ");
+  for (const std::string& argument : arguments) {
+    if (argument != "--resume") absl::StrAppend(&command, Quoted(argument), " ");
   }
   return command + "--resume";
 }

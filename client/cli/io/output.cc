@@ -21,7 +21,10 @@ constexpr char kReaderGoneUrl[] = "ricochet/reader_gone";
 
 absl::Status SystemError(const std::string& what) { return absl::ErrnoToStatus(errno, what); }
 
-mode_t DefaultMode() {
+// The mode of the file that is replaced, or that of a new one.
+mode_t ModeFor(const std::string& path) {
+  constexpr mode_t kPermissions = 0777;
+  if (struct stat info; stat(path.c_str(), &info) == 0) return info.st_mode & kPermissions;
   const mode_t mask = umask(0);
   umask(mask);
   return 0666 & ~mask;
@@ -76,7 +79,7 @@ absl::StatusOr<AtomicFile> AtomicFile::Create(const std::string& path) {
   if (file.descriptor_ < 0) return SystemError(absl::StrCat("cannot write ", path));
   file.path_ = target.string();
   file.temporary_path_ = std::move(name);
-  if (fchmod(file.descriptor_, DefaultMode()) != 0) return SystemError(absl::StrCat("cannot write ", path));
+  if (fchmod(file.descriptor_, ModeFor(file.path_)) != 0) return SystemError(absl::StrCat("cannot write ", path));
   return file;
 }
 

@@ -93,7 +93,14 @@ absl::StatusOr<PartialFile> PartialFile::Open(const std::string& path, const Par
     return absl::InvalidArgumentError(absl::StrCat(file.part_path_, " is the first part of an unfinished sweep: add ",
                                                    "--resume to go on with it, or remove it"));
   }
-  if (resume && (has_points || access(file.manifest_path().c_str(), F_OK) == 0)) {
+  const bool has_manifest = access(file.manifest_path().c_str(), F_OK) == 0;
+  if (has_manifest && !resume) {
+    unlink(file.part_path_.c_str());  // It is empty.
+    return absl::InvalidArgumentError(absl::StrCat(
+        file.manifest_path(), " is there, and the sweep needs this name: remove it, or add --resume if an ",
+        "unfinished sweep left it"));
+  }
+  if (resume && (has_points || has_manifest)) {
     if (absl::Status status = file.Resume(wanted); !status.ok()) return status;
     return file;
   }
@@ -118,6 +125,10 @@ absl::Status PartialFile::Resume(const Partial& wanted) {
     return absl::InvalidArgumentError(absl::StrCat(
         part_path_, " is part of another sweep than the one asked for (", IdentityOf(manifest_).ShortDebugString(),
         ", not ", IdentityOf(wanted).ShortDebugString(), "): name another file, or remove it"));
+  }
+  if (manifest_.bytes() > 0 && SizeOf(descriptor_) == 0) {
+    return absl::DataLossError(absl::StrCat(part_path_, " is missing or empty, although ", manifest_path(), " counts ",
+                                            manifest_.bytes(), " bytes: remove both to start anew"));
   }
   if (absl::Status status = CheckBytes(); !status.ok()) return status;
   bytes_ = manifest_.bytes();

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "client/cli/sweep/resume_command.h"
 #include "tests/client/cli/cli_run.h"
 #include "tests/support/processes/server_process.h"
 
@@ -120,6 +121,13 @@ TEST_P(CliResume, APartThatIsTooShortOrHasNoManifestIsRefused) {
   EXPECT_THAT(result.err, HasSubstr("is missing or no manifest"));
 }
 
+TEST_P(CliResume, AManifestWithoutItsPartIsExplained) {
+  Kill();
+  const CliResult result = RunShell("rm result.part\n" + Started("--resume"));
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("result.part is missing or empty, although "));
+}
+
 TEST_P(CliResume, AnotherSweepIsRefused) {
   Kill();
   for (const std::string other : {"--mu 0.1", "--range 0:300000"}) {
@@ -173,6 +181,11 @@ TEST_P(CliResume, WithNothingToGoOnWithStartsAtTheFirstPoint) {
 
 using CliWhole = CliTest;
 
+TEST_F(CliWhole, TheCommandThatGoesOnDrawsThePicture) {
+  EXPECT_EQ(ResumeCommand({"ricochet", "sweep", "--plot", "p.svg", "--title", "Two words"}),
+            "ricochet sweep --plot p.svg --title 'Two words' --resume");
+}
+
 TEST_F(CliWhole, ResumeNeedsRowsInAFile) {
   for (const std::string& command :
        {Sweep("text", "-o result --resume"), Sweep("csv", "--resume"),
@@ -182,6 +195,20 @@ TEST_F(CliWhole, ResumeNeedsRowsInAFile) {
     EXPECT_THAT(result.err, HasSubstr("--resume needs -o FILE")) << command;
   }
   EXPECT_THAT(Files(), IsEmpty());
+}
+
+TEST_F(CliWhole, AFileWithTheNameOfTheManifestIsKept) {
+  Write("result.part.json", "precious");
+  const CliResult refused = RunShell(Sweep("csv", "-o result", "3"));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("result.part.json is there, and the sweep needs this name: remove it"));
+  EXPECT_EQ(Read("result.part.json"), "precious");
+  EXPECT_THAT(Files(), ElementsAre("result.part.json"));
+}
+
+TEST_F(CliWhole, AFileThatIsReplacedKeepsItsMode) {
+  const CliResult mode = RunShell("echo > f.txt; chmod 640 f.txt; \"$R\" scene list -o f.txt && stat -c %a f.txt");
+  EXPECT_EQ(mode.out, "640\n") << mode.err;
 }
 
 TEST_F(CliWhole, AnInterruptedTableLeavesNoFile) {
