@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "absl/algorithm/container.h"
@@ -80,17 +82,37 @@ Spelling SpellingOf(const std::string& path) {
   return info != nullptr && info->unit == "rad" ? Spelling::kAngle : Spelling::kNumber;
 }
 
+// Completes both names of a derivative: that of a number among `ofs`, and that of a field among `bys`.
+static absl::StatusOr<std::string> FullDerivative(const DerivativeName& name, const std::vector<std::string>& ofs,
+                                                  const std::vector<std::string>& bys) {
+  absl::StatusOr<std::string> of = FullName(name.of, ofs, "--column");
+  if (!of.ok()) return of.status();
+  absl::StatusOr<std::string> by = FullName(name.by, bys, "--column");
+  if (!by.ok()) return by.status();
+  return DerivativeName{*std::move(of), *std::move(by)}.Text();
+}
+
+// The same among columns that are derivatives.
+static absl::StatusOr<std::string> FullDerivative(const DerivativeName& name, const std::vector<std::string>& known) {
+  std::set<std::string> ofs, bys;
+  for (const std::string& column : known) {
+    const std::optional<DerivativeName> derivative = ReadDerivativeName(column);
+    if (!derivative.has_value()) continue;
+    ofs.insert(derivative->of);
+    bys.insert(derivative->by);
+  }
+  return FullDerivative(name, {ofs.begin(), ofs.end()}, {bys.begin(), bys.end()});
+}
+
 absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names) {
   const std::vector<std::string> known = Columns(scene);
   const std::vector<std::string> places = ColumnPlaces(scene);
   std::vector<std::string> columns;
   for (const std::string& name : names) {
     if (const auto derivative = ReadDerivativeName(absl::StripAsciiWhitespace(name))) {
-      absl::StatusOr<std::string> of = FullName(derivative->of, known, "--column");
-      if (!of.ok()) return of.status();
-      absl::StatusOr<std::string> by = FullField(scene, derivative->by, "--column");
-      if (!by.ok()) return by.status();
-      columns.push_back(DerivativeName{*std::move(of), *std::move(by)}.Text());
+      absl::StatusOr<std::string> full = FullDerivative(*derivative, known, FieldPaths(scene));
+      if (!full.ok()) return full.status();
+      columns.push_back(*std::move(full));
       continue;
     }
     auto full = FullColumns(known, places, {name});
@@ -113,7 +135,9 @@ absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::stri
                    [start](const std::string& column) { return absl::StartsWith(column, start); });
       if (columns.size() > before) continue;
     }
-    absl::StatusOr<std::string> full = FullName(name, places, "--column");
+    const std::optional<DerivativeName> derivative = ReadDerivativeName(name);
+    absl::StatusOr<std::string> full =
+        derivative.has_value() ? FullDerivative(*derivative, known) : FullName(name, places, "--column");
     if (!full.ok()) return full.status();
     columns.push_back(*std::move(full));
   }

@@ -1,6 +1,7 @@
 #include "client/cli/sweep/sweep_rows.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "client/cli/input/short_name.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/field_table.h"
+#include "core/base/derivative_name.h"
 #include "core/base/nearest.h"
 
 namespace ricochet::cli {
@@ -34,8 +36,9 @@ absl::Status Sort(const std::vector<std::string>& names, std::vector<std::string
       return absl::InvalidArgumentError(absl::StrCat("the column ", names[i], " is there twice"));
     }
     if (names[i] == "regime" || names[i] == "status") continue;
-    const FieldInfo* const info = FindFieldInfo(names[i]);
-    if (info == nullptr) {
+    const std::optional<DerivativeName> derivative = ReadDerivativeName(names[i]);
+    const FieldInfo* const info = FindFieldInfo(derivative.has_value() ? derivative->of : names[i]);
+    if (info == nullptr || (derivative.has_value() && FindFieldInfo(derivative->by) == nullptr)) {
       return absl::InvalidArgumentError(
           absl::StrCat("the column ", names[i], " must be a field of a scene or an outcome"));
     }

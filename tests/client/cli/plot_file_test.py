@@ -25,6 +25,7 @@ SWEEPS = {
              "--column", NEWTON],
     "three": [*SWEEP, "--axis", f"{MU}=0.1,0.2", "--axis", "restitution.energetic=1,0.5", "--axis",
               f"{PHI}=lin:0.1:1.5:9", "--column", f"{RATE},{NEWTON}"],
+    "derivative": [*SWEEP, "--axis", f"{MU}=lin:0.05:0.5:21", "--column", f"{NEWTON},d({NEWTON})/d({MU})"],
     "limit": [*SWEEP, "--axis", "restitution.newton=0.3,0.9", "--axis", f"{MU}=lin:-0.1:0.5:31", "--column",
               "coefficients.energetic,coefficients.poisson"],
 }
@@ -53,6 +54,12 @@ class PlotFileTest(RicochetCase):
         for ending, start in {"png": b"\x89PNG", "pdf": b"%PDF"}.items():
             self.made("plot", "two.nc", "-o", f"two.{ending}")
             self.assertTrue((WORK / f"two.{ending}").read_bytes().startswith(start))
+
+    def test_a_derivative_has_a_short_name(self):
+        self.made(*SWEEPS["derivative"], "-o", "slope.csv")
+        for name in (f"d({NEWTON})/d({MU})", "d(newton)/d(mu)", "newton"):
+            self.made("plot", "slope.csv", "--column", name, "-o", "slope.svg")
+        self.assertIn("must be a column of the file", self.refused("plot", "slope.csv", "--column", "d(newton)/d(phi)"))
 
     def test_two_long_axes_are_a_map_of_cells(self):
         table = list(csv.DictReader(self.made(*MAP, "--format", "csv").splitlines()))
