@@ -3,9 +3,11 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 #include "absl/strings/match.h"
@@ -13,6 +15,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/strip.h"
 #include "core/base/nearest.h"
 
 namespace ricochet {
@@ -42,12 +45,16 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
   bool boolean(bool) override { return Value(FieldDescriptor::CPPTYPE_BOOL) && Next(); }
   bool number_integer(int64_t) override { return Number() && Next(); }
   bool number_unsigned(uint64_t) override { return Number() && Next(); }
-  bool number_float(double, const std::string&) override { return Number() && Next(); }
+  bool number_float(double, const std::string& token) override { return FitsDouble(token) && Number() && Next(); }
   bool string(std::string& words) override {
     const FieldDescriptor* field = Field();
     double number = 0.0;
-    if (field != nullptr && field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE && !absl::SimpleAtod(words, &number)) {
-      return Fail(absl::StrCat(Path(), " = \"", words, "\": must be a number"));
+    if (field != nullptr && field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) {
+      // The parser of the protos takes a hexadecimal number, which no other input does.
+      if (!absl::SimpleAtod(words, &number) || words.find_first_of("xX") != std::string::npos) {
+        return Fail(absl::StrCat(Path(), " = \"", words, "\": must be a number"));
+      }
+      if (!FitsDouble(words)) return false;
     }
     return Value(FieldDescriptor::CPPTYPE_STRING) && Next();
   }
@@ -93,8 +100,8 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
         absl::StrCat(Path(), ": is given twice", before->second == name ? "" : ", before as " + before->second));
   }
 
-  bool parse_error(size_t /*position*/, const std::string& /*token*/,
-                   const nlohmann::json::exception& exception) override {
+  bool parse_error(size_t /*position*/, const std::string& token, const nlohmann::json::exception& exception) override {
+    if (constexpr int kOverflow = 406; exception.id == kOverflow) return FitsDouble(token);
     const absl::string_view what = exception.what();
     const size_t place = what.find("line ");
     error_ = std::string(place == absl::string_view::npos ? what : what.substr(place));
@@ -139,6 +146,11 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     const size_t column = start == std::string::npos ? before.size() : before.size() - start - 1;
     error_ = absl::StrCat("line ", line, ", column ", column, ": ", message);
     return false;
+  }
+
+  bool FitsDouble(const std::string& token) {
+    const std::string rule = WhyNoDouble(token);
+    return rule.empty() || Fail(absl::StrCat(Path(), " = ", token, ": must ", rule));
   }
 
   bool Number() {
@@ -193,6 +205,14 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
 };
 
 }  // namespace
+
+std::string WhyNoDouble(absl::string_view decimal) {
+  double value = 0.0;
+  absl::ConsumePrefix(&decimal, "+");
+  const auto [end, error] = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+  if (error != std::errc::result_out_of_range) return "";
+  return "be 0, or a number of a size from 4.95e-324 to 1.7976931348623157e+308";
+}
 
 std::string FieldHint(const Descriptor& type, const std::string& name) {
   std::vector<std::string> known;

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "absl/strings/string_view.h"
+
 namespace google::protobuf {
 class Descriptor;
 }
@@ -15,6 +17,9 @@ namespace ricochet {
 // field that is given twice is an error, although the parser of the protos would silently take the second. Returns an
 // empty text if there is none; the parser of the protos may still refuse the text for another reason.
 std::string ExplainJson(const std::string& text, const google::protobuf::Descriptor& type);
+
+// Returns "" or, if no double holds the decimal because it exceeds the largest or would become 0, what it must be.
+std::string WhyNoDouble(absl::string_view decimal);
 
 // Returns what is said after the name of a field that the type lacks: the nearest that it has, "; did you mean a_m?",
 // or all.

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
+#include "proto/text/json_errors.h"
 #include "ricochet/contact_matrix.h"
 
 namespace ricochet {
@@ -24,29 +27,39 @@ struct Matrix {
   std::vector<std::vector<double>> rows;
 };
 
+// Names the first number of a matrix that no double holds.
+absl::Status CheckNumbers(const std::string& key, absl::string_view text) {
+  for (const absl::string_view number : absl::StrSplit(text, absl::ByAnyChar("[], \t\r\n"), absl::SkipEmpty())) {
+    const std::string rule = WhyNoDouble(number);
+    if (!rule.empty()) return absl::InvalidArgumentError(absl::StrCat(key, " has ", number, ": must ", rule));
+  }
+  return absl::OkStatus();
+}
+
 // Reads the value of the key that ends before `at`, if it is a list of lists of numbers.
-std::optional<Matrix> MatrixAt(const std::string& text, size_t at) {
+absl::StatusOr<std::optional<Matrix>> MatrixAt(const std::string& text, const std::string& key, size_t at) {
   Matrix matrix;
   const size_t colon = text.find_first_not_of(kBlanks, at);
-  if (colon == std::string::npos || text[colon] != ':') return std::nullopt;
+  if (colon == std::string::npos || text[colon] != ':') return std::optional<Matrix>();
   matrix.begin = text.find_first_not_of(kBlanks, colon + 1);
-  if (matrix.begin == std::string::npos || text[matrix.begin] != '[') return std::nullopt;
+  if (matrix.begin == std::string::npos || text[matrix.begin] != '[') return std::optional<Matrix>();
   int depth = 0;
   for (matrix.end = matrix.begin; matrix.end < text.size(); ++matrix.end) {
     if (text[matrix.end] == '[') ++depth;
     if (text[matrix.end] == ']' && --depth == 0) break;
   }
-  if (matrix.end++ >= text.size()) return std::nullopt;
-  const auto json = nlohmann::json::parse(text.begin() + static_cast<ptrdiff_t>(matrix.begin),
-                                          text.begin() + static_cast<ptrdiff_t>(matrix.end), nullptr, false);
-  if (!json.is_array() || json.empty()) return std::nullopt;
+  if (matrix.end++ >= text.size()) return std::optional<Matrix>();
+  const absl::string_view value(text.data() + matrix.begin, matrix.end - matrix.begin);
+  if (absl::Status status = CheckNumbers(key, value); !status.ok()) return status;
+  const auto json = nlohmann::json::parse(value, nullptr, false);
+  if (!json.is_array() || json.empty()) return std::optional<Matrix>();
   for (const nlohmann::json& row : json) {
     const bool is_row =
         row.is_array() && std::all_of(row.begin(), row.end(), [](const auto& x) { return x.is_number(); });
-    if (!is_row) return std::nullopt;
+    if (!is_row) return std::optional<Matrix>();
     matrix.rows.push_back(row.get<std::vector<double>>());
   }
-  return matrix;
+  return std::optional(std::move(matrix));
 }
 
 // The shortest decimals that read back as the same doubles.
@@ -104,13 +117,15 @@ absl::StatusOr<std::string> WithFlatMatrices(const std::string& text) {
   for (const char* const key : {"w_per_kg", "mass_matrix", "jacobian"}) {
     const std::string quoted = absl::StrCat("\"", key, "\"");
     for (size_t at = flat.find(quoted); at != std::string::npos; at = flat.find(quoted, at + quoted.size())) {
-      const std::optional<Matrix> matrix = MatrixAt(flat, at + quoted.size());
-      if (!matrix.has_value()) continue;
-      absl::StatusOr<std::string> entry = FlatText(flat, key, at, *matrix);
+      const absl::StatusOr<std::optional<Matrix>> found = MatrixAt(flat, key, at + quoted.size());
+      if (!found.ok()) return found.status();
+      if (!found->has_value()) continue;
+      const Matrix& matrix = **found;
+      absl::StatusOr<std::string> entry = FlatText(flat, key, at, matrix);
       if (!entry.ok()) return entry.status();
       const auto first = flat.begin() + static_cast<ptrdiff_t>(at);
-      const auto lines = std::count(first, flat.begin() + static_cast<ptrdiff_t>(matrix->end), '\n');
-      flat.replace(at, matrix->end - at, *entry + std::string(static_cast<size_t>(lines), '\n'));
+      const auto lines = std::count(first, flat.begin() + static_cast<ptrdiff_t>(matrix.end), '\n');
+      flat.replace(at, matrix.end - at, *entry + std::string(static_cast<size_t>(lines), '\n'));
     }
   }
   return flat;

@@ -2,6 +2,7 @@
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
 
@@ -53,6 +54,25 @@ std::string UnknownIn(const google::protobuf::Message& message) {
   return std::string(CheckContent(message.SerializeAsString(), *message.GetDescriptor(), kAnyNumber).message());
 }
 
+// Names a number that the parser of textproto has taken for 0. It takes one that is too large for infinity, which the
+// rules of a scene refuse.
+std::string TooSmallIn(const std::string& text) {
+  namespace io = google::protobuf::io;
+  FirstError errors;
+  io::ArrayInputStream stream(text.data(), static_cast<int>(text.size()));
+  io::Tokenizer tokens(&stream, &errors);
+  tokens.set_allow_f_after_float(true);
+  tokens.set_comment_style(io::Tokenizer::SH_COMMENT_STYLE);
+  while (tokens.Next()) {
+    const io::Tokenizer::Token& token = tokens.current();
+    const bool is_zero = token.type == io::Tokenizer::TYPE_FLOAT && io::Tokenizer::ParseFloat(token.text) == 0.0;
+    const std::string rule = is_zero ? WhyNoDouble(token.text) : "";
+    if (rule.empty()) continue;
+    return absl::StrCat("line ", token.line + 1, ", column ", token.column + 1, ": ", token.text, " must ", rule);
+  }
+  return "";
+}
+
 bool IsJson(const std::string& path, const std::string& text) {
   if (absl::EndsWithIgnoreCase(path, ".json")) return true;
   for (const char* ending : {".textproto", ".txtpb", ".pbtxt"}) {
@@ -66,7 +86,10 @@ std::string WhyNoText(const std::string& text, google::protobuf::Message& messag
   FirstError error;
   google::protobuf::TextFormat::Parser parser;
   parser.RecordErrorsTo(&error);
-  if (parser.ParseFromString(text, &message)) error.text = UnknownIn(message);
+  if (parser.ParseFromString(text, &message)) {
+    error.text = TooSmallIn(text);
+    if (error.text.empty()) error.text = UnknownIn(message);
+  }
   if (error.text.empty()) return "";
   return absl::StrCat("is not a ", message.GetTypeName(), " in textproto: ", error.text);
 }
