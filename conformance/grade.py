@@ -57,6 +57,8 @@ def read_cases():
 
 
 def add_answer(where, name, law, velocity, cases, answers):
+    if not isinstance(name, str) or not isinstance(law, str):
+        refuse(f'{where}: the case and the law must be texts')
     if name not in cases:
         near = difflib.get_close_matches(name, cases, 1)
         refuse(f'{where}.case = {name}: must be a case of impacts.json' + (f'; did you mean {near[0]}?' if near else ''))
@@ -67,7 +69,7 @@ def add_answer(where, name, law, velocity, cases, answers):
     names = cases[name].coordinates
     if len(velocity) != len(names):
         refuse(f'{where}.velocity_after of {name} has {len(velocity)} numbers: must have {len(names)}, {", ".join(names)}')
-    if not all(isinstance(x, (int, float)) and math.isfinite(x) for x in velocity):
+    if not all(math.isfinite(x) for x in velocity):
         refuse(f'{where}.velocity_after of {name}: must have finite numbers; leave out a case without any')
     answers[name] = (law, np.array(velocity, float))
 
@@ -78,12 +80,27 @@ def known_keys(entry, where, known):
             refuse(f'{where}.{key}: is unknown; must be {", ".join(known)}')
 
 
+def object_of(pairs):
+    """An object of JSON, whose keys must differ."""
+    keys = [key for key, _ in pairs]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise ValueError(f'{key} is given twice')
+    return dict(pairs)
+
+
+def no_constant(name):
+    raise ValueError(f'{name} is no number of JSON')
+
+
 def read_json(text, path, cases):
     try:
-        whole = json.loads(text)
-    except ValueError as error:
+        whole = json.loads(text, object_pairs_hook=object_of, parse_int=float, parse_constant=no_constant)
+    except (ValueError, RecursionError) as error:
         refuse(f'{path} is not JSON: {error}; is it whole?')
     known_keys(whole, path, ('simulator', 'law', 'answers'))
+    if not isinstance(whole.get('simulator', ''), str):
+        refuse(f'{path}.simulator: must be a text')
     if not isinstance(whole.get('answers'), list):
         refuse(f'{path}.answers: must be a list')
     answers = {}
@@ -91,34 +108,56 @@ def read_json(text, path, cases):
         if not isinstance(entry, dict):
             refuse(f'answers[{i}]: must be an object')
         known_keys(entry, f'answers[{i}]', ('case', 'law', 'velocity_after'))
-        if not isinstance(entry.get('velocity_after'), list):
+        velocity = entry.get('velocity_after')
+        if not isinstance(velocity, list) or not all(isinstance(x, float) for x in velocity):
             refuse(f'answers[{i}].velocity_after: must be a list of numbers')
-        add_answer(f'answers[{i}]', entry.get('case', ''), entry.get('law') or whole.get('law', ''),
-                   entry['velocity_after'], cases, answers)
+        law = entry.get('law', '')
+        add_answer(f'answers[{i}]', entry.get('case', ''), whole.get('law', '') if law == '' else law, velocity, cases, answers)
     return whole.get('simulator', ''), answers
 
 
+def number(text):
+    """A number as ricochet reads it: a decimal, or a fraction of two."""
+    parts = text.split('/')
+    if len(parts) > 2 or not all(re.fullmatch(r'[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)(e[+-]?[0-9]+)?', x, re.IGNORECASE) for x in parts):
+        raise ValueError(f'{text} must be a number such as 0.1 or 1e-3, or a fraction such as 1/3')
+    numbers = [float(x) for x in parts]
+    for x, value in zip(parts, numbers):
+        if math.isinf(value) or value == 0 and re.search('[1-9]', re.split('e', x, flags=re.IGNORECASE)[0]):
+            raise ValueError(f'{text} must be 0, or a number of a size from 4.95e-324 to 1.7976931348623157e+308')
+    if len(numbers) == 2 and numbers[1] == 0:
+        raise ValueError(f'{text} must have a denominator other than 0')
+    return numbers[0] if len(numbers) == 1 else numbers[0] / numbers[1]
+
+
 def read_csv(text, path, cases):
-    rows = csv.reader(line for line in text.splitlines() if line.strip() and not line.startswith('#'))
-    header = next(rows)
+    lines = [line.strip() for line in text.split('\n')]
+    try:
+        rows = [[cell.strip() for cell in row] for row in
+                csv.reader((line for line in lines if line and line[0] != '#'), skipinitialspace=True)]
+    except csv.Error as error:
+        refuse(f'{path} is not CSV: {error}')
+    header = rows[0] if rows else []
     if header != ['case', 'law', 'velocity_after']:
         refuse(f'{path} has the header {",".join(header)}: must have case,law,velocity_after')
     answers = {}
-    for number, row in enumerate(rows, 1):
+    for place, row in enumerate(rows[1:], 1):
         try:
-            velocity = [float(cell) for cell in row[2:]]
+            velocity = [number(cell) for cell in row[2:]]
         except ValueError as error:
-            refuse(f'row {number}: {error}')
-        add_answer(f'row {number}', row[0], row[1] if len(row) > 1 else '', velocity, cases, answers)
+            refuse(f'row {place}: {error}')
+        add_answer(f'row {place}', row[0], row[1] if len(row) > 1 else '', velocity, cases, answers)
     return '', answers
 
 
 def read_answers(path, cases):
     try:
-        with (sys.stdin if path == '-' else open(path, encoding='utf-8-sig')) as file:
-            text = file.read()
+        with (sys.stdin.buffer if path == '-' else open(path, 'rb')) as file:
+            text = file.read().decode('utf-8-sig')
     except OSError as error:
         refuse(f'cannot read {path}: {error.strerror}')
+    except UnicodeDecodeError as error:
+        refuse(f'{path} is not UTF-8 at byte {error.start}')
     if not text.strip():
         refuse(f'{path} is empty: must have answers')
     simulator, answers = (read_json if text.lstrip()[0] == '{' else read_csv)(text, path, cases)
@@ -264,10 +303,19 @@ def text_of(head, origin, graded):
     return '\n'.join(lines + (['', 'Not right, or beyond a limit:', *wrong] if wrong else []))
 
 
+def tolerance(text):
+    try:
+        if (value := number(text)) > 0:
+            return value
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error))
+    raise argparse.ArgumentTypeError(f'{text} must be above 0')
+
+
 def main():
-    parser = argparse.ArgumentParser(description='Grades a simulator by the conformance cases.')
+    parser = argparse.ArgumentParser(description='Grades a simulator by the conformance cases.', allow_abbrev=False)
     parser.add_argument('answers')
-    parser.add_argument('--tolerance', type=float, default=1e-9)
+    parser.add_argument('--tolerance', type=tolerance, default=1e-9)
     parser.add_argument('--law', choices=LAWS)
     parser.add_argument('--family', action='append', default=[])
     parser.add_argument('--case', action='append', default=[])
@@ -300,8 +348,16 @@ def main():
         print(text_of('%s: %d of %d cases are right to %.2g, by %s%s.' %
                       (simulator, right, len(graded), options.tolerance, LAW_TEXT[general],
                        '' if stated else ', which most answers obey'), origin, graded))
-    sys.exit(0 if right == len(graded) else 42)
+    return 0 if right == len(graded) else 42
 
 
 if __name__ == '__main__':
-    main()
+    try:
+        code = main()
+        sys.stdout.flush()
+    except OSError as error:  # A broken pipe is a reader that has enough, as with `| head`.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = 0
+        if not isinstance(error, BrokenPipeError):
+            refuse(f'cannot write the report: {error.strerror}')
+    sys.exit(code)

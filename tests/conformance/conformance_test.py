@@ -241,12 +241,42 @@ class Grades(unittest.TestCase):
                 ('case,law,velocity_after\nrod-jams,newton,0,0\n', 'has 2 numbers: must have 3, body_1.x, body_1.y, body_1.rate'),
                 ('case,law,velocity_after\nrod-jams,newton,0,0,x\n', 'x'),
                 ({'answers': [row, row]}, 'must not be answered twice'),
+                ('{"answers": [], "answers": []}', 'is given twice'),
+                ('{"answers": [{"case": "pendulum-2-paper", "velocity_after": [1e400]}]}', ''),
+                ('{"answers": [{"case": "pendulum-2-paper", "velocity_after": [NaN]}]}', 'is it whole?'),
+                ({'answers': [{'case': 'pendulum-2-paper', 'velocity_after': [True]}]}, 'must be a list of numbers'),
+                ({'answers': [{**row, 'case': ['rod-jams']}]}, 'must be'),
+                ({'answers': [{**row, 'law': None}]}, 'must be'),
+                ({'answers': [row], 'simulator': 5}, 'must be a text'),
+                ('# Nothing.\n', 'header'),
+                *((f'case,law,velocity_after\npendulum-2-paper,newton,{x}\n', 'must ')
+                  for x in ('1_0', '\u0663', '1e400', '1e-400', '1/0', '0x1', '')),
                 ({'answers': [{**row, 'case': 'rod-jam'}]}, 'did you mean rod-jams?'),
                 ({'answers': [{**row, 'law': 'Moreau'}]}, 'must be'),
                 ({'answers': [{**row, 'velocities': []}]}, 'velocities: is unknown'),
                 ({'answers': [{'case': 'rod-jams'}]}, 'must be a list of numbers')):
             for message in grade(wrong):
                 self.assertIn(says, str(message), wrong)
+
+    def test_a_wrong_tolerance_is_refused(self):
+        for tolerance in ('0', '-1', 'nan', '1_0', 'x'):
+            for message in grade(right_answers('newton'), f'--tolerance={tolerance}'):
+                self.assertIn('tolerance', message)
+
+    def test_blanks_and_comments_in_csv_do_not_count(self):
+        found, code = grade(' case , law,velocity_after\r\n\n  # One.\n pendulum-2-paper , newton , "2/2"\n', '--case',
+                            'pendulum-2-paper')
+        self.assertEqual((code, found['right_cases']), (0, 1))
+
+    def test_the_script_ends_well_without_a_reader_or_text(self):
+        path = WORK / 'core.json'
+        path.write_text(json.dumps(right_answers('newton')), encoding='utf-8')
+        script = f'{sys.executable} {FOLDER}/grade.py'
+        ended = run('bash', '-c', f'{{ sleep 0.5; {script} {path}; echo "ends with $?" >&2; }} | true')
+        self.assertEqual(ended.stderr, 'ends with 0\n')
+        path.write_bytes(b'case,law,velocity_after\n\xff,newton,0\n')
+        ended = run('bash', '-c', f'{script} {path}')
+        self.assertEqual((ended.returncode, ended.stderr), (2, f'grade.py: {path} is not UTF-8 at byte 24\n'))
 
     def test_text_csv_and_page_say_what_json_says(self):
         path = WORK / 'core.json'

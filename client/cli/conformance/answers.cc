@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -77,15 +78,32 @@ absl::Status AddJson(const Json& object, const std::string& where, const std::st
   return Add(where, *name, law->empty() ? general_law : *law, velocity.get<std::vector<double>>(), all);
 }
 
-absl::StatusOr<SimulatorAnswers> ReadJson(const std::string& text, const std::string& name) {
-  SimulatorAnswers all;
-  Json json;
+// Reads JSON whose objects have no key twice.
+absl::Status ParseWithoutTwins(const std::string& text, const std::string& name, Json& json) {
+  std::vector<std::set<std::string>> keys;
+  std::string twin;
+  const auto note = [&](int /*depth*/, Json::parse_event_t event, Json& part) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(part.get<std::string>()).second) twin = part.dump();
+    return true;
+  };
   try {
-    json = Json::parse(text);
+    json = Json::parse(text, note);
+    if (twin.empty()) return absl::OkStatus();
+    return absl::InvalidArgumentError(absl::StrCat(name, ": ", twin, " is given twice in one object"));
   } catch (const Json::parse_error& error) {
     return absl::InvalidArgumentError(
         absl::StrCat(name, " is not JSON from byte ", error.byte, " of ", text.size(), " on; is it whole?"));
+  } catch (const Json::exception&) {  // The only other one is that of a number.
+    return absl::InvalidArgumentError(absl::StrCat(name, " has a number that exceeds the largest double"));
   }
+}
+
+absl::StatusOr<SimulatorAnswers> ReadJson(const std::string& text, const std::string& name) {
+  SimulatorAnswers all;
+  Json json;
+  if (absl::Status status = ParseWithoutTwins(text, name, json); !status.ok()) return status;
   if (absl::Status status = CheckKeys(json, name, {"simulator", "law", "answers"}); !status.ok()) return status;
   const absl::StatusOr<std::string> simulator = Text(json, "simulator", name);
   if (!simulator.ok()) return simulator.status();
