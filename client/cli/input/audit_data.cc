@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -35,12 +36,11 @@ absl::Status UnknownColumn(const std::string& cell, const std::string& name) {
                                                  "; --skip-column leaves a column out"));
 }
 
-// Returns why the value breaks the rule of a number that is not negative; empty if it keeps it.
-std::string WhyNegative(const char* name, const std::vector<double>& column, size_t row) {
-  if (column.empty()) return "";
-  const double value = column[row];
-  return value >= 0.0 && std::isfinite(value) ? ""
-                                              : absl::StrCat(name, " = ", ShortestDecimal(value), ": must be >= 0");
+// Returns why a value is not finite or below `least`; empty if neither is so.
+std::string WhyWrong(absl::string_view name, const std::vector<double>& column, size_t row, double least) {
+  if (column.empty() || (std::isfinite(column[row]) && column[row] >= least)) return "";
+  return absl::StrCat(name, " = ", ShortestDecimal(column[row]), ": must be ",
+                      std::isfinite(column[row]) ? absl::StrCat(">= ", least) : "finite");
 }
 
 }  // namespace
@@ -123,8 +123,17 @@ AuditRows AuditTable::Next(size_t most) {
 
 std::string WhyInvalid(const AuditRows& rows, size_t row) {
   const AuditColumns& columns = rows.columns;
-  for (const std::string& reason : {rows.bad_cells[row], WhyNegative("friction", columns.friction, row),
-                                    WhyNegative("velocity_uncertainty_m_s", columns.velocity_uncertainty_m_s, row)}) {
+  if (!rows.bad_cells[row].empty()) return rows.bad_cells[row];
+  for (const NamedAuditColumn& known : kAuditColumns) {
+    const bool is_signed =
+        known.values != &AuditColumns::friction && known.values != &AuditColumns::velocity_uncertainty_m_s;
+    const double least = is_signed ? std::numeric_limits<double>::lowest() : 0.0;
+    const std::string reason = WhyWrong(known.name, columns.*known.values, row, least);
+    if (!reason.empty()) return reason;
+  }
+  for (size_t i = 0; i < columns.rates_after_rad_s.size(); ++i) {
+    const std::string reason = WhyWrong(absl::StrCat(kRates, "[", i, "]"), columns.rates_after_rad_s[i], row,
+                                        std::numeric_limits<double>::lowest());
     if (!reason.empty()) return reason;
   }
   return "the contact cannot have this velocity before the impact, or a number exceeds the largest double";

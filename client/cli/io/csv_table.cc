@@ -79,9 +79,13 @@ void CsvReader::Append(const std::vector<std::string>& cells, CsvTable& table) c
 absl::StatusOr<CsvReader> CsvReader::Open(std::istream& stream, const std::string& name) {
   CsvReader reader(stream, name);
   if (!reader.NextLine()) return absl::InvalidArgumentError(absl::StrCat(name, " has no header"));
-  if (absl::StrContains(reader.line_, ';')) {
+  if (absl::StartsWith(reader.line_, "\xFF\xFE") || absl::StartsWith(reader.line_, "\xFE\xFF")) {
+    return absl::InvalidArgumentError(absl::StrCat(name, " is in UTF-16: must be in UTF-8"));
+  }
+  for (const auto& [separator, plural] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
+    if (!absl::StrContains(reader.line_, separator)) continue;
     return absl::InvalidArgumentError(
-        absl::StrCat(name, " separates its columns by semicolons: must use commas, and decimal points in numbers"));
+        absl::StrCat(name, " separates its columns by ", plural, ": must use commas, and decimal points in numbers"));
   }
   Split(reader.line_, reader.header_);
   reader.kinds_.resize(reader.header_.size());

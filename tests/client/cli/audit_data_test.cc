@@ -42,6 +42,17 @@ TEST_F(CliAuditData, AnInvalidRowHasItsReasonInEveryFormat) {
   EXPECT_THAT(json.out, HasSubstr(R"("invalid_reason":"friction = -1: must be >= 0")"));
 }
 
+TEST_F(CliAuditData, ACellThatIsNotFiniteIsNamed) {
+  EXPECT_THAT(Audit(std::string(kHeader) + "0,nan,0.7\n").out, HasSubstr("normal_after_m_s = nan: must be finite\n"));
+  EXPECT_THAT(Audit("rates_after_rad_s[0],rates_after_rad_s[1]\n0,inf\n").out,
+              HasSubstr("rates_after_rad_s[1] = inf: must be finite\n"));
+}
+
+TEST_F(CliAuditData, TabsAndUtf16AreNamed) {
+  EXPECT_THAT(Audit("normal_after_m_s\tfriction\n0.1\t0\n").err, HasSubstr("separates its columns by tabs: must use"));
+  EXPECT_THAT(Audit(std::string("\xFF\xFEn\0o\0", 6)).err, HasSubstr("is in UTF-16: must be in UTF-8"));
+}
+
 TEST_F(CliAuditData, ADecimalCommaIsNeverReadAsTwoCells) {
   const CliResult bare = Audit(std::string(kHeader) + "0,7,0,2,0,7\n");
   EXPECT_THAT(bare.out, HasSubstr("row 0 (line 2): invalid: has 6 cells: must have 3; a number has a decimal point"));
