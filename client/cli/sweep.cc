@@ -8,10 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/ascii.h"
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_replace.h"
 #include "client/cli/input/axis_input.h"
 #include "client/cli/input/demand_input.h"
 #include "client/cli/input/file_option.h"
@@ -24,6 +21,7 @@
 #include "client/cli/plot/picture_input.h"
 #include "client/cli/report/invalid_points.h"
 #include "client/cli/subcommands.h"
+#include "client/cli/sweep/resume_command.h"
 #include "client/cli/sweep/shard.h"
 #include "client/cli/sweep/sweep_output.h"
 #include "client/cli/sweep/sweep_plot.h"
@@ -137,22 +135,6 @@ absl::Status CheckResume(const SweepOptions& options) {
   return absl::InvalidArgumentError(
       "--resume needs -o FILE as csv, json, jsonl or npy, without --summary-only: only rows in a file can be gone on "
       "with");
-}
-
-std::string Quoted(const std::string& argument) {
-  const bool plain = !argument.empty() && std::all_of(argument.begin(), argument.end(), [](char c) {
-    return absl::ascii_isalnum(static_cast<unsigned char>(c)) || absl::StrContains("-_./:=,@%+", c);
-  });
-  return plain ? argument : absl::StrCat("'", absl::StrReplaceAll(argument, {{"'", "'\\''"}}), "'");
-}
-
-// Returns `arguments`, the name of the program first, with --resume, quoted for a shell.
-std::string ResumeCommand(const std::vector<std::string>& arguments) {
-  std::string command;
-  for (const std::string& argument : arguments) {
-    if (argument != "--resume") absl::StrAppend(&command, Quoted(argument), " ");
-  }
-  return command + "--resume";
 }
 
 // Passes the chunks of one sweep on to the output, the picture and the progress bar.

@@ -14,7 +14,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
                       .steps = impact.steps,
                       .right_hand_sides = impact.right_hand_sides};
   SetErrors(impact.errors, outcome);
-  outcome.contact = impact.contact;
+  if (impact.regime != Regime::kSeparating) outcome.contact = impact.contact;
   const auto timeline = [&] {
     std::vector<Event> events;
     for (const TimedInstant& at : impact.events) {

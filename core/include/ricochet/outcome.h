@@ -257,7 +257,7 @@ struct Outcome {
   // True if every mixture of the alternatives solves the law, too: they are the ends of a range.
   bool alternatives_are_ends = false;
   Plan plan;
-  std::optional<ContactDuration> contact;  // Present exactly if the model is Model::kFiniteDuration.
+  std::optional<ContactDuration> contact;  // Present exactly if the model is kFiniteDuration and the bodies touch.
   // A mechanism has these, in the units of its coordinates: q' after the impact, and M (q'+ - q'), the momentum that
   // the impact gives each coordinate. For a free one that is J^T (f, tau). A coordinate that is held takes what the
   // free ones pass on to it: less J^T (f, tau), it is the impulse of the brake or controller that holds it. Empty for
