@@ -55,8 +55,8 @@ void SetRows(const Problem& problem, const std::vector<double>& best, Model& mod
   });
 }
 
-// Errors of so many sigmas are possible: normal errors would make any of `rows` velocities err by more with less than the
-// probability at which the data refuse the physics.
+// Errors of so many sigmas are possible: normal errors would make any of `rows` velocities err by more with less than
+// the probability at which the data refuse the physics.
 double PossibleSigmas(size_t rows) {
   double low = 0.0, high = 40.0;
   constexpr int kEnough = 50;

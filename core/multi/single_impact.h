@@ -23,7 +23,8 @@ struct SingleImpact {
   bool ended = true;  // False if the contact jams, so that its impact has no end; nothing else is set then.
   ContactVector impulse, velocity;
   ContactWorks works;
-  // Errors of each component of the velocity, of each component of the impulse, and of each work, which may be infinite.
+  // Errors of each component of the velocity, of each component of the impulse, and of each work, which may be
+  // infinite.
   double velocity_error = 0.0, tangential_error = 0.0, normal_error = 0.0, work_error = 0.0;
   // False if only such errors of the impulse are known as change a velocity, as in space where friction and the joints
   // lock the contact.

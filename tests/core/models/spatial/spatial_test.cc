@@ -632,8 +632,8 @@ TEST(SpatialTest, RankTwoThatSticksIsLocked) {
   EXPECT_EQ(impact.energetic, 0.0);
 }
 
-// A point of an arm with two coordinates: M = (4, 2; 2, 5), t1 = (1, 1), t2 = (1, 2), n = (-1, 2), rates (-1, -2). Wtt^-1
-// wtn has the length 5, so that a friction of 5 needs all of its cone to hold the contact.
+// A point of an arm with two coordinates: M = (4, 2; 2, 5), t1 = (1, 1), t2 = (1, 2), n = (-1, 2), rates (-1, -2).
+// Wtt^-1 wtn has the length 5, so that a friction of 5 needs all of its cone to hold the contact.
 Problem ArmWithTwoCoordinates(double mu) {
   return {.w11 = 5.0 / 16.0,
           .w12 = 7.0 / 16.0,
