@@ -351,7 +351,7 @@ TEST_F(Tokens, DecideWhoMayCallWhat) {
   const std::string log = server.WaitForLog("scope solve is missing");
   EXPECT_THAT(log, HasSubstr("reason=\"no token\""));
   EXPECT_THAT(log, HasSubstr("reason=\"unknown token\""));
-  EXPECT_THAT(log, HasSubstr("method=/ricochet.v1.ImpactService/Solve caller=token:monitor"));
+  EXPECT_THAT(log, HasSubstr("method=/ricochet.v1.ImpactService/Solve status=PERMISSION_DENIED"));
   EXPECT_THAT(log, Not(HasSubstr("secret")));
   EXPECT_THAT(log, Not(HasSubstr("Secret")));
 }
