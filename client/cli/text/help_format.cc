@@ -1,9 +1,13 @@
 #include "client/cli/text/help_format.h"
 
 #include <CLI/App.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
 #include "client/cli/text/wrap.h"
@@ -48,6 +52,16 @@ std::string HelpFormat::Entry(const std::string& name, const std::string& descri
 
 std::string HelpFormat::make_option(const CLI::Option* option, bool is_positional) const {
   return Entry(make_option_name(option, is_positional) + make_option_opts(option), make_option_desc(option));
+}
+
+std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
+  std::vector<std::string> names;
+  for (const CLI::Option* other : option->get_excludes()) names.push_back(other->get_name());
+  std::string text = CLI::Formatter::make_option_opts(option);
+  if (names.size() < 2) return text;
+  std::sort(names.begin(), names.end());
+  const std::string title = get_label("Excludes");
+  return absl::StrCat(text.substr(0, text.rfind(title)), title, ": ", absl::StrJoin(names, " "));
 }
 
 std::string HelpFormat::make_subcommand(const CLI::App* sub) const {

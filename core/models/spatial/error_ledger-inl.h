@@ -45,7 +45,6 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   // The errors before a step of slip that turns, and those after it.
   const StepErrors<T>& BeforeStep() const { return sum_; }
   void SetAfterStep(const StepErrors<T>& errors) {
-    is_straight_ = false;
     sum_ = errors;
   }
   // Adds the rounding of the direction of slip.
@@ -58,7 +57,6 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   void AddStick(T length, T v);
   // Adds a piece without friction.
   void AddFree(T length, T v) {
-    is_straight_ = true;
     u_rounding_ += kEpsilon<T> * (problem_.rate * length * problem_.graze + T{0.5} * problem_.velocity);
     sum_.AddRounding(problem_, problem_.w.w33 * length, v, length);
   }
@@ -107,11 +105,12 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   T VelocityError() const { return sum_.VelocityError(problem_); }
   // A contact that sticks does not depend on the path of u.
   void ForgetSlip() { sum_.friction = sum_.slip_rounding = sum_.strayed = T{0}; }
-  // A bound on the error, in normal impulse, of the event at which v reaches its target. For a slope near 0 it is the
-  // bound of a double root, which a straight path does not have.
+  // A bound on the error, in normal impulse, of the event at which v reaches its target. Where the path bends more than
+  // it rises, it is the bound of a double root.
   T ImpulseErrorOfVelocityEvent(T error, const Slopes<T>& slopes) const {
     if (error == T{0}) return T{0};
-    return error / (is_straight_ && slopes.v > T{0} ? slopes.v : std::max(slopes.v, std::sqrt(std::fabs(error))));
+    const T bend = slopes.v > T{0} ? slopes.bend : T{1};
+    return error / std::max(slopes.v, std::sqrt(bend * std::fabs(error)));
   }
   // The error of the impulse at the end, from that of the state there and that of compression.
   T ImpulseErrorOfEnd(const Path<T>& path, const Slopes<T>& slopes, T velocity_error, T work_error,
@@ -176,7 +175,6 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   T f_rounding_{0};  // of the friction impulse, where slip stops
   EndErrors<T> at_compression_end_;
   T compression_end_tau_{0};
-  bool is_straight_ = false;  // The path has come here on a straight piece.
   T event_distance_{0};
   T compression_end_v_{0};      // the v found in place of 0
   T stop_tau_ = -kInfinity<T>;  // where slip stopped, from the start of the phase
@@ -189,7 +187,6 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
 
 template <typename T>
 void ErrorLedger<T>::AddStraightSlip(const Direction<T>& e, T length, T slip, T next_slip, T v) {
-  is_straight_ = true;
   sum_.Carry(problem_, {.length = length, .m = e, .slip = {slip, next_slip}});
   u_rounding_ += kEpsilon<T> * (problem_.rate * length * problem_.graze + T{0.5} * slip);
   sum_.Stray(problem_, length, std::min(slip, next_slip));
@@ -199,7 +196,6 @@ void ErrorLedger<T>::AddStraightSlip(const Direction<T>& e, T length, T slip, T 
 // The true path sticks a little later, and is off by no more than before until then.
 template <typename T>
 void ErrorLedger<T>::AddStick(T length, T v) {
-  is_straight_ = true;
   const T unsettled = std::min(length, settles_);
   sum_.work += problem_.normal_root * (sum_.friction + sum_.slip_rounding) * unsettled;
   if (!(settles_ > length)) ForgetSlip();

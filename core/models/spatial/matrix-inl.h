@@ -74,6 +74,7 @@ struct Frame {
 template <typename T>
 struct Slopes {
   T u1, u2, v;
+  T bend{0};  // |d2v/dtau2|, which slip that turns has
 };
 
 // A contact that sticks: the friction impulse per normal impulse that keeps u as it is, with the smallest norm if there

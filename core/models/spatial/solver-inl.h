@@ -157,7 +157,10 @@ void Solver<T>::Accept(const StepEnd<T>& end, int64_t steps) {
   if (problem_.may_jam) impact_.errors.NoteGap(impact_.path, std::fabs(end.overshoot));
   if (!end.reaches_goal) return;
   impact_.errors.SetEventDistance(end.distance_to_goal);
-  impact_.EndPhase(problem_.SlopesAlong(end.e));
+  Slopes<T> slopes = problem_.SlopesAlong(end.e);
+  const Frame<T> frame = problem_.FrameAt(end.e);
+  slopes.bend = problem_.mu * problem_.rate * problem_.rate * std::fabs(frame.w2 * frame.Turn()) / state_.Slip();
+  impact_.EndPhase(slopes);
 }
 
 // Slip may be so near to a direction that attracts it that what it still turns by cannot be seen in the result. It then
@@ -168,20 +171,23 @@ bool Solver<T>::SwitchToStraight(const SlipFrame<T>& slip_frame) {
   if (!attracting.has_value()) return false;
   if (!problem_.w.tangent_is_singular) {
     TurnSlipTo(*attracting);
-  } else if (StandsAlong(*attracting)) {
-    StandSlipAlong(*attracting);
-    SlideStanding(impact_, *attracting);
+    SlideStraight(impact_, *attracting);
     return true;
   }
-  SlideStraight(impact_, *attracting);
+  // Else slip across the direction of Wtt stays, and turns slip as long as slip grows.
+  if (!StandsAlong(*attracting)) return false;
+  StandSlipAlong(*attracting);
+  SlideStanding(impact_, *attracting);
   return true;
 }
 
-// True if slip along e, which does not turn, does not change its size either. That is so where Wtt is singular and e is
-// not its direction.
+// True if slip along e, which attracts its neighbours, keeps its size as well. Where Wtt is singular, slip is attracted
+// by the direction of Wtt if it grows along it, and stands else.
 template <typename T>
 bool Solver<T>::StandsAlong(const Direction<T>& e) const {
-  return std::fabs(problem_.FrameAt(e).Growth()) <= T{1e-10};
+  const Direction<T> d = problem_.w.TangentDirection();
+  const T sign = std::copysign(T{1}, d.c * e.c + d.s * e.s);
+  return problem_.FrameAt({sign * d.c, sign * d.s}).Growth() < T{0};
 }
 
 // Turns slip to the direction e, along which it stands, by an impulse along the direction d of Wtt. The part of slip

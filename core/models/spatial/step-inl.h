@@ -55,12 +55,14 @@ struct SlipFrame {
         scale(Min(contact.velocity, Max(contact.approach, Absolute(state.v)))) {}
 
   // True where slip is so near to a direction that attracts it that what it still turns by stays below `allowed`, a
-  // part of the scale of v.
+  // part of the scale of v, or that its turn is rounding.
   HWY_INLINE MaskOf<T> IsNearlyStraight(T allowed) const {
     const T near{0.1};
     const T turn = Absolute(frame.Turn());
     const T slope = frame.TurnSlope();
-    return Both(Both(slope < T{0}, turn <= -near * slope), slip * Absolute(frame.Turn() / slope) <= allowed * scale);
+    const auto is_negligible =
+        Either(turn <= T{kEpsilon<Constant<T>>}, slip * Absolute(frame.Turn() / slope) <= allowed * scale);
+    return Both(Both(slope < T{0}, turn <= -near * slope), is_negligible);
   }
 
   T slip;

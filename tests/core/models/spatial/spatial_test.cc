@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "core/models/spatial/solver-inl.h"
@@ -725,6 +726,55 @@ TEST(SpatialTest, HasAnErrorWhereCompressionEndsNearlyAtRest) {
         EXPECT_EQ(impact.v1, 0.0);
       } else {
         EXPECT_GT(impact.v1, 0.01);
+      }
+    }
+  }
+}
+
+// With W = g g^T, g = (0, 2, 1), v' = 1 - 2 mu cos(phi), which hardly rises where slip is almost along t2 and mu is
+// 1/2. The normal impulse that leads to a v follows by quadrature.
+TEST(SpatialTest, ErrorsHoldWhereVHardlyRises) {
+  constexpr double kSingular = 2e-6;  // The rounding of slip counts by the root of that of a singular Wtt.
+  const double v0 = -1.5;
+  const double u2 = 0.05;
+  for (const double mu : {0.45, 0.4995, 0.5}) {
+    for (const double u1 : {1.6e-3, 0.03, 0.4}) {
+      const auto rise = [mu, u1, u2, v0](long double v) {
+        const long double along = u2 + 2.0L * (v - v0);
+        const long double slip = std::sqrt(along * along + static_cast<long double>(u1) * u1);
+        return (1.0L - 2.0L * mu) + 2.0L * mu * u1 * u1 / (slip * (slip + along));
+      };
+      const auto impulse_to = [&rise, v0](long double v) {
+        constexpr int kPieces = 40000;
+        const long double step = (v - v0) / kPieces;
+        long double sum = 1.0L / rise(v0) - 1.0L / rise(v);
+        for (int i = 0; i < kPieces; ++i) {
+          sum += 4.0L / rise(v0 + (i + 0.5L) * step) + 2.0L / rise(v0 + (i + 1.0L) * step);
+        }
+        return sum * step / 6.0L;
+      };
+      const long double compression = impulse_to(0.0L);
+      for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-7}) {
+        const Problem problem = {.w22 = 4.0,
+                                 .w23 = 2.0,
+                                 .w33 = 1.0,
+                                 .u0 = {u1, u2},
+                                 .v0 = v0,
+                                 .mu = mu,
+                                 .mu_static = mu,
+                                 .law = RestitutionLaw::kPoisson,
+                                 .coefficient = 1.0,
+                                 .tolerance = tolerance};
+        const Impact impact = Solve(problem);
+        const std::string where = absl::StrCat("mu ", mu, ", u1 ", u1, ", tolerance ", tolerance);
+        const auto found = static_cast<long double>(impact.v1);
+        const long double v_error = (impulse_to(found) - 2.0L * compression) * rise(found);
+        EXPECT_LE(std::fabs(v_error), 1.1 * impact.errors.v) << where;
+        EXPECT_LE(std::fabs(v_error), impact.error_estimate * std::fabs(v0)) << where;
+        EXPECT_LE(impact.error_estimate, std::max(tolerance, kSingular)) << where;
+        EXPECT_LE(std::fabs(impact.tau_compression - compression), impact.errors.tau_compression) << where;
+        EXPECT_LE(std::fabs(impact.tau1 - 2.0L * compression), impact.errors.tau) << where;
+        EXPECT_LE(impact.errors.tau, 10.0 * impact.error_estimate * impact.tau1 / rise(found)) << where;
       }
     }
   }
