@@ -196,7 +196,7 @@ std::vector<Violation> CheckCertifiable(const Scene& scene, int digits) {
   };
   if (digits < 1 || digits > kMostCertifiedDigits) {
     violations.push_back(
-        MakeViolation("certified_digits", digits, absl::StrCat("be in [1, ", kMostCertifiedDigits, "]")));
+        MakeViolation("certified_digits", digits, absl::StrCat("be 0 for none, or in [1, ", kMostCertifiedDigits, "]")));
   }
   refuse(TangentialDirections(scene.system) > 1, "system", "lies in space",
          "be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");

@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -55,13 +56,14 @@ std::string HelpFormat::make_option(const CLI::Option* option, bool is_positiona
 }
 
 std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
+  const std::string text = CLI::Formatter::make_option_opts(option);
+  const std::string title = absl::StrCat(" ", get_label("Excludes"), ":");
+  const size_t start = text.rfind(title);
+  if (start == std::string::npos) return text;
   std::vector<std::string> names;
   for (const CLI::Option* other : option->get_excludes()) names.push_back(other->get_name());
-  std::string text = CLI::Formatter::make_option_opts(option);
-  if (names.size() < 2) return text;
   std::sort(names.begin(), names.end());
-  const std::string title = get_label("Excludes");
-  return absl::StrCat(text.substr(0, text.rfind(title)), title, ": ", absl::StrJoin(names, " "));
+  return absl::StrCat(text.substr(0, start), title, " ", absl::StrJoin(names, " "));
 }
 
 std::string HelpFormat::make_subcommand(const CLI::App* sub) const {

@@ -115,7 +115,8 @@ class PathFollower {
   void NoteFirstStop() {
     if (path_.first_stop != FirstStop::kNever) return;
     path_.first_stop = y_[kV] < 0.0 && !compression_ended_ ? FirstStop::kInCompression : FirstStop::kInRestitution;
-    path_.first_stop_sticks = mode_.Sticks();
+    // A spring along t takes part in every stop. What it turns into follows as without one.
+    path_.first_stop_sticks = contact_.compliant ? contact_.holds_freely : mode_.Sticks();
   }
 
   void ChangeFriction(Guard fallen) {

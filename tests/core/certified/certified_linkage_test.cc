@@ -131,8 +131,8 @@ TEST(CertifiedRefusalTest, NamesWhatStandsAgainstACertificate) {
   EXPECT_EQ(
       Refusal(With(Body()), 10),
       "system lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
-  EXPECT_EQ(Refusal(With(Contact()), 1001), "certified_digits = 1001: must be in [1, 1000]");
-  EXPECT_EQ(Refusal(With(Contact()), -1), "certified_digits = -1: must be in [1, 1000]");
+  EXPECT_EQ(Refusal(With(Contact()), 1001), "certified_digits = 1001: must be 0 for none, or in [1, 1000]");
+  EXPECT_EQ(Refusal(With(Contact()), -1), "certified_digits = -1: must be 0 for none, or in [1, 1000]");
   Scene scene = With(Contact());
   scene.finite_forces = ContactAcceleration{0.0, -9.81};
   EXPECT_EQ(Refusal(scene, 10),

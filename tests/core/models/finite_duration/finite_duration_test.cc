@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/models/compliant/compliant.h"
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "tests/support/scenes/planar_scenes.h"
@@ -232,6 +233,11 @@ std::vector<EventKind> KindsOf(const std::string& modes) {
   return kinds;
 }
 
+// The regime by the model that follows the same springs without a duration.
+Regime RegimeInNormalTime(const Problem& problem) {
+  return compliant::Solve({.contact = problem.contact, .ratio_squared = *problem.ratio_squared}).regime;
+}
+
 TEST(FiniteDurationTest, CompliantImpactsAreThoseOfTheTable) {
   const std::vector<VectorRow> rows = ReadVectors("compliant.csv");
   ASSERT_EQ(rows.size(), 60U);
@@ -266,6 +272,7 @@ TEST(FiniteDurationTest, CompliantImpactsAreThoseOfTheTable) {
       EXPECT_NEAR(work_t / scale, Number(row, "work_t") / scale, slack) << what;
       EXPECT_NEAR((work_t + impact.friction_dissipation + impact.spring_energy) / scale, 0.0, slack) << what;
       EXPECT_NEAR(Residual(impact) / scale, 0.0, slack) << what;
+      EXPECT_EQ(impact.regime, RegimeInNormalTime(problem)) << what;
       if (tolerance > 1e-10) continue;
       std::vector<EventKind> kinds = KindsOf(impact);
       std::erase(kinds, EventKind::kCompressionEnds);
