@@ -145,7 +145,7 @@ ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact
   ImpactEnd<double> scaled = impact;
   scaled.tau_compression = middle[kNormal];
   scaled.tau1 = end[kNormal];
-  scaled.work_normal_compression = path.compression_works.normal;
+  scaled.work_normal_compression = path.compression[kNormalWork];
   errors.v = velocity;
   errors.tau_compression = errors.tau = impulses.tau;
   errors.f = impulses.f;

@@ -152,20 +152,12 @@ class PathFollower {
     mode_changed_ = true;
     y_[kPlace] = mode_.largest_place;
     mode_.branch = LoadingBranch::kLoading;
-    loading_start_ = {y_[kNormalWork], y_[kTangentWork]};
   }
 
   void EndCompression() {
     compression_ended_ = true;
     mode_.largest_place = y_[kPlace];
     path_.compression = y_;
-    Works& works = path_.compression_works;
-    if (contact_.damped) {
-      works = {y_[kNormalWork], y_[kTangentWork]};
-    } else {
-      works.normal += y_[kNormalWork] - loading_start_.normal;
-      works.tangential += y_[kTangentWork] - loading_start_.tangential;
-    }
   }
 
   // v has fallen to 0: the contact turns round, comes to rest, or has only touched 0 and goes on.
@@ -228,7 +220,6 @@ class PathFollower {
   Path path_;
   bool mode_changed_ = false;
   bool compression_ended_ = false;
-  Works loading_start_;  // The works where loading began last.
   int64_t steps_ = 0;
   int64_t reversals_ = 0;
 };

@@ -52,7 +52,6 @@ struct Path {
   PathEnd how = PathEnd::kUnderway;
   Motion end = {};
   Motion compression = {};  // The state at the last end of compression.
-  Works compression_works;
   std::vector<Instant> events;
   FirstStop first_stop = FirstStop::kNever;
   bool first_stop_sticks = false;

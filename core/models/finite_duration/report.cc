@@ -42,7 +42,7 @@ void WriteCoefficients(double coefficient, const ScaledContact& contact, const P
   // Damping and the energy left in the spring are lost; their ratio to the work of compression cancels nothing.
   const double p = contact.exponent + 1.0;
   const double left = contact.stiffness * Pow(Indentation(contact, {}, path.end), p) / p;
-  const double lost = (path.end[kDampingLoss] + left) / -path.compression_works.normal;
+  const double lost = (path.end[kDampingLoss] + left) / -path.compression[kNormalWork];
   impact.energetic = std::sqrt(std::max(0.0, 1.0 - lost));
   impact.energetic_excess = -lost / (1.0 + impact.energetic);
 }
@@ -55,7 +55,7 @@ void WriteWorks(const ScaledContact& contact, const Path& path, Impact& impact) 
   Works compression = path.straight_loading;
   Works restitution = path.straight_other;
   if (!contact.IsStraight()) {
-    compression = path.compression_works;
+    compression = {path.compression[kNormalWork], path.compression[kTangentWork]};
     restitution = {end[kNormalWork] - compression.normal, end[kTangentWork] - compression.tangential};
   }
   impact.work_normal_compression = unit * compression.normal;
