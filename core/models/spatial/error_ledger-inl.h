@@ -150,6 +150,14 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   T ErrorOfEnergy(const State<T>& at, T f, T tau, T u_error, T v_error) const {
     return (at.Slip() + u_error) * f + problem_.graze * (std::fabs(at.v) + v_error) * tau;
   }
+  // The change of energy is that of impulses and velocities. Where slip stops, u is set to 0, and the friction impulse
+  // has what u lacks; from there on the normal impulse has what v lacks.
+  T EnergyRoundingOfStop(const Slopes<T>& slopes) const {
+    if (f_rounding_ == T{0}) return T{0};
+    const T tau = ImpulseErrorOfVelocityEvent(sum_.v_rounding, slopes);
+    return T{0.5} * (problem_.velocity * (f_rounding_ + problem_.mu_static * tau) +
+                     problem_.graze * problem_.approach * tau);
+  }
   static T Size(T x, T y) { return std::sqrt(x * x + y * y); }
   // The difference of the paths on both sides of a goal at which the contact is nearly at rest, in v and in u: the norm
   // of Wtt^-1 never grows. It does not count where the contact is locked, because both paths end at rest.
@@ -351,11 +359,12 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
     unknown.relative = errors.relative;
     return unknown;
   }
+  const T of_stop = EnergyRoundingOfStop(slopes);
   if (problem_.coefficient == T{0}) {
     errors.tau = errors.tau_compression;
     errors.normal_restitution = errors.tangential_restitution = T{0};
     // The change of energy is that of impulses and velocities, of which v is set to 0.
-    errors.energy += T{0.5} * problem_.graze * std::fabs(compression_end_v_) * compression_end_tau_;
+    errors.energy += T{0.5} * problem_.graze * std::fabs(compression_end_v_) * compression_end_tau_ + of_stop;
     return errors;
   }
   errors.tau = impulse + kSafetyOfImpulses * std::fabs(known_impulse) +
@@ -375,7 +384,7 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
   const T energy = ErrorOfEnergy(path.state, errors.f, all, errors.u, errors.v + v_slope * all);
   errors.tangential_restitution = energy + errors.energy + problem_.graze * errors.normal_restitution +
                                   T{4} * kEpsilon<T> * std::fabs(path.state.friction_work);
-  errors.energy = energy;
+  errors.energy = energy + of_stop;
   return errors;
 }
 

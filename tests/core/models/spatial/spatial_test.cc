@@ -780,6 +780,42 @@ TEST(SpatialTest, ErrorsHoldWhereVHardlyRises) {
   }
 }
 
+// A plastic impact that sticks loses all of q^T W^-1 q/2, q = (u, v). With W = L L^T it is |L^-1 q|^2/2.
+TEST(SpatialTest, TheErrorOfTheEnergyHoldsWhereAnIllConditionedContactComesToRest) {
+  int stuck = 0;
+  for (int i = 0; i < 800; ++i) {
+    const auto entry = [i](int k) { return ((i * 37 + k * 101 + i * i * 13) % 61 - 30) / 16.0; };
+    const double l11 = 1.0 + i % 5;
+    const double l22 = std::ldexp(1.0, -(i % 12));
+    const double l33 = std::ldexp(1.0, -(i % 9));
+    const double l21 = entry(1);
+    const double l31 = entry(2);
+    const double l32 = entry(3);
+    const Problem problem = {.w11 = l11 * l11,
+                             .w12 = l11 * l21,
+                             .w13 = l11 * l31,
+                             .w22 = l21 * l21 + l22 * l22,
+                             .w23 = l21 * l31 + l22 * l32,
+                             .w33 = l31 * l31 + l32 * l32 + l33 * l33,
+                             .u0 = {entry(4), entry(5)},
+                             .v0 = -0.25 - std::fabs(entry(6)),
+                             .mu = 3.0,
+                             .mu_static = 3.0,
+                             .law = RestitutionLaw::kNewton,
+                             .coefficient = 0.0};
+    const Impact impact = Solve(problem);
+    if (impact.regime != Regime::kStickInCompression) continue;
+    ++stuck;
+    const long double y1 = problem.u0[0] / l11;
+    const long double y2 = (problem.u0[1] - l21 * y1) / l22;
+    const long double y3 = (problem.v0 - l31 * y1 - l32 * y2) / l33;
+    const long double lost = (y1 * y1 + y2 * y2 + y3 * y3) / 2.0L;
+    EXPECT_LE(std::fabs(impact.energy_change + lost), impact.errors.energy_change) << i;
+    EXPECT_LE(impact.errors.energy_change, 1e-3L * lost) << i;
+  }
+  EXPECT_GE(stuck, 40);
+}
+
 TEST(SpatialTest, ASingularTangentMatrixSticksByTheSmallestForce) {
   // Nothing moves along t2, so that the contact sticks as in the plane of t1 and n.
   const Problem problem = {.w11 = 1.0,
