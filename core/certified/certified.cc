@@ -195,8 +195,8 @@ std::vector<Violation> CheckCertifiable(const Scene& scene, int digits) {
     if (is_wrong) violations.push_back(MakeViolation(field, found, rule));
   };
   if (digits < 1 || digits > kMostCertifiedDigits) {
-    violations.push_back(
-        MakeViolation("certified_digits", digits, absl::StrCat("be 0 for none, or in [1, ", kMostCertifiedDigits, "]")));
+    violations.push_back(MakeViolation("certified_digits", digits,
+                                       absl::StrCat("be 0 for none, or in [1, ", kMostCertifiedDigits, "]")));
   }
   refuse(TangentialDirections(scene.system) > 1, "system", "lies in space",
          "be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");

@@ -180,7 +180,8 @@ struct EstimatedPath {
   }
 };
 
-// Integrates until the estimated error is within `tolerance`, or rounding forbids any better.
+// Integrates until the estimated error is within `tolerance`, or rounding forbids any better. A path that finds no end
+// is followed once more as finely as can be.
 EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator, double tolerance, StopCheck& stop) {
   constexpr double kFirst = 0.1;
   constexpr double kTighter = 0.1;
@@ -192,7 +193,12 @@ EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator,
     result.path = FollowPath(contact, integrator, result.tolerance, stop, nullptr);
     result.Count(result.path);
     result.error = std::numeric_limits<double>::infinity();
-    if (!result.path.HasEnd()) return result;
+    if (!result.path.HasEnd()) {
+      // A force far above that of the impact leaves the last of the energy to decide whether the bodies part.
+      if (result.path.how != PathEnd::kBudgetUsedUp || result.tolerance == kFinest || stop.WasStopped()) return result;
+      result.tolerance = kFinest;
+      continue;
+    }
     result.error = ErrorOf(contact, result.path);
     if (result.error <= tolerance || result.tolerance == kFinest) return result;
     const double missing = 0.5 * tolerance / result.error;

@@ -44,9 +44,7 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
 
   // The errors before a step of slip that turns, and those after it.
   const StepErrors<T>& BeforeStep() const { return sum_; }
-  void SetAfterStep(const StepErrors<T>& errors) {
-    sum_ = errors;
-  }
+  void SetAfterStep(const StepErrors<T>& errors) { sum_ = errors; }
   // Adds the rounding of the direction of slip.
   void AddSlipRounding(T slip) { sum_.slip_rounding += StepErrors<T>::SlipRounding(problem_, slip); }
   // Slip is turned by the friction impulse (f1, f2).
@@ -155,8 +153,8 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   T EnergyRoundingOfStop(const Slopes<T>& slopes) const {
     if (f_rounding_ == T{0}) return T{0};
     const T tau = ImpulseErrorOfVelocityEvent(sum_.v_rounding, slopes);
-    return T{0.5} * (problem_.velocity * (f_rounding_ + problem_.mu_static * tau) +
-                     problem_.graze * problem_.approach * tau);
+    return T{0.5} *
+           (problem_.velocity * (f_rounding_ + problem_.mu_static * tau) + problem_.graze * problem_.approach * tau);
   }
   static T Size(T x, T y) { return std::sqrt(x * x + y * y); }
   // The difference of the paths on both sides of a goal at which the contact is nearly at rest, in v and in u: the norm

@@ -286,15 +286,12 @@ TEST(FiniteDurationTest, CompliantImpactsAreThoseOfTheTable) {
 
 // Friction pushes the body back into the surface: v changes its sign three times.
 TEST(FiniteDurationTest, CompressionEndsAtTheLastReversalOfALoadedSpring) {
-  const Problem problem = {.contact = {.w = {3.673, 1.0988, 0.48},
-                                       .u0 = -1.516,
-                                       .v0 = -1.0,
-                                       .mu = 0.9626,
-                                       .mu_static = 0.9626,
-                                       .coefficient = 0.9},
-                           .spring = LinearSpring{1e4},
-                           .ratio_squared = 0.8022,
-                           .tolerance = 1e-9};
+  const Problem problem = {
+      .contact =
+          {.w = {3.673, 1.0988, 0.48}, .u0 = -1.516, .v0 = -1.0, .mu = 0.9626, .mu_static = 0.9626, .coefficient = 0.9},
+      .spring = LinearSpring{1e4},
+      .ratio_squared = 0.8022,
+      .tolerance = 1e-9};
   const Impact impact = Solve(problem);
   const auto same = WithoutDuration(problem);
   EXPECT_NEAR(impact.tau_compression, same.tau_compression, 1e-7);
@@ -610,10 +607,25 @@ TEST(FiniteDurationTest, WhatDoesNotPartEndsByItsBudget) {
     EXPECT_FALSE(impact.Converged());
     EXPECT_EQ(impact.regime, Regime::kWedged);
     EXPECT_EQ(impact.error_estimate, std::numeric_limits<double>::infinity());
-    // The budget holds for the impact and for its history.
-    EXPECT_LE(impact.steps, 2 * 50'000);
+    // The budget holds for the impact, for its finer repetition and for its history.
+    EXPECT_LE(impact.steps, 3 * 50'000);
     EXPECT_TRUE(std::isfinite(impact.u1) && std::isfinite(impact.v1) && std::isfinite(impact.contact.duration_s));
     EXPECT_EQ(impact.contact.history.size(), 5U);
+  }
+}
+
+// The force takes over the whole stroke what it gave, and the spring returns eta^2 of what it stored, over eta^2 of the
+// way: v1 = -eta v0, which is a small rest of large energies.
+TEST(FiniteDurationTest, ACoarseToleranceFindsTheEndOfAContactThatIsPressedHard) {
+  for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+    const Problem problem = {.contact = {.w = {1.2, 0.0, 1.1}, .v0 = -0.0045, .coefficient = 0.5},
+                             .normal_acceleration = -143.0,
+                             .spring = LinearSpring{25.0},
+                             .tolerance = tolerance};
+    const Impact impact = Solve(problem);
+    EXPECT_EQ(impact.termination, Termination::kConverged) << tolerance;
+    EXPECT_LE(std::fabs(impact.v1 / 0.0045 - 0.5), impact.error_estimate) << tolerance;
+    EXPECT_LE(impact.error_estimate, 1e-2) << tolerance;
   }
 }
 
