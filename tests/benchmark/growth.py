@@ -199,13 +199,15 @@ def page(found):
         *table(["clients", "calls a second", "median", "99th percentile"], clients)])
 
 
-PANELS = [("points", "points of a sweep", "s", lambda row: (row[0], row[1])),
-          ("columns", "columns", "ns a point", lambda row: (row[0], row[1] * 1e9)),
-          ("axes", "axes", "ns a point", lambda row: (row[0], row[1] * 1e9)),
-          ("links", "links of a chain", "µs a point", lambda row: (row[0], row[1] * 1e6)),
-          ("contacts", "contacts a call", "µs a contact", lambda row: (row[0], row[1] * 1e6)),
+PANELS = [("points", "points of a sweep", "time of a sweep [s]", lambda row: (row[0], row[1])),
+          ("columns", "columns", "time of a point [ns]", lambda row: (row[0], row[1] * 1e9)),
+          ("axes", "axes", "time of a point [ns]", lambda row: (row[0], row[1] * 1e9)),
+          ("links", "links of a chain", "time of a point [µs]", lambda row: (row[0], row[1] * 1e6)),
+          ("contacts", "contacts a call", "time of a contact [µs]", lambda row: (row[0], row[1] * 1e6)),
           ("clients", "clients", "calls a second", lambda row: (row[0], row[2]))]
 LOGARITHMIC = {"points": "xy", "links": "x", "contacts": "xy", "clients": "x"}
+POWERS = "set format x '10^{%L}'; set xtics 10"
+TICS = {"points": POWERS, "contacts": POWERS, "axes": "set format x '%g'; set xtics 1"}
 
 
 def picture(found):
@@ -217,7 +219,7 @@ def picture(found):
         lines += [f"set xlabel '{label}'", f"set title '{unit}'", "unset logscale"]
         lines += [f"set logscale {axes}"] if axes else []
         lines += ["set yrange [*:*]" if "y" in axes else "set yrange [0:*]",
-                  "set format x '10^{%L}'; set xtics 10" if name in ("points", "contacts") else "set format x '%g'; set xtics autofreq",
+                  TICS.get(name, "set format x '%g'; set xtics autofreq"),
                   "plot '-' with linespoints lw 2 pt 7 ps 0.6 lc '#0072b2'"]
         lines += [f"{x} {y}" for x, y in map(of, rows)] + ["e"]
     return "\n".join(lines + ["unset multiplot", ""])
