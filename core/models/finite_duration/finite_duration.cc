@@ -185,7 +185,7 @@ struct EstimatedPath {
 EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator, double tolerance, StopCheck& stop) {
   constexpr double kFirst = 0.1;
   constexpr double kTighter = 0.1;
-  constexpr double kFinest = 4e-15;
+  constexpr double kFinest = 5e-16;
   constexpr double kCoarsest = 1e-6;
   EstimatedPath result;
   result.tolerance = std::clamp(kFirst * tolerance, kFinest, kCoarsest);
