@@ -7,6 +7,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/str_replace.h"
 #include "core/base/nearest.h"
 
 namespace ricochet::cli {
@@ -103,6 +104,10 @@ std::string UsageError(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> extras = app.remaining(/*recurse=*/true);
   const bool lacks_subcommand = !chosen.get_subcommands({}).empty();
   const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExcludesError)) {
+    return absl::StrCat(absl::StrReplaceAll(error.what(), {{" excludes ", " cannot be combined with "}}),
+                        ": give one of them");
+  }
   if (extras.empty() || (!lacks_subcommand && !is_extra)) {
     return lacks_subcommand && extras.empty() ? NoSubcommand(chosen) : error.what();
   }

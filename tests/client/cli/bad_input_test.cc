@@ -58,7 +58,7 @@ std::vector<BadInput> Flags() {
       {{"solve", "--depth", "1"}, "--depth", ""},
       {Plus(kSolve, {"extra"}), "extra", ""},
       {Plus(kSolve, {"--format", "xml"}), "--format", ""},
-      {Plus(kSolve, {"--newton", "1"}), "--newton excludes --energetic", ""},
+      {Plus(kSolve, {"--newton", "1"}), "--newton cannot be combined with --energetic: give one of them", ""},
       {Plus(kSolve, {"--scene", "x.json"}), "--scene cannot be combined with the flags of a pendulum", ""},
       {Plus(kSolve, {"--plot", "picture.gif"}), "--plot picture.gif: must end in .svg, .png or .pdf", ""},
       {Plus(kSolve, {"--history", "0"}), "--history = 0: must be in [1, 65535]", ""},
