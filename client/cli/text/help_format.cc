@@ -56,7 +56,7 @@ std::string HelpFormat::make_option(const CLI::Option* option, bool is_positiona
 }
 
 std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
-  const std::string text = CLI::Formatter::make_option_opts(option);
+  std::string text = CLI::Formatter::make_option_opts(option);
   const std::string title = absl::StrCat(" ", get_label("Excludes"), ":");
   const size_t start = text.rfind(title);
   if (start == std::string::npos) return text;
