@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/models/finite_duration/history.h"
 #include "core/models/finite_duration/integrator.h"
@@ -180,29 +181,36 @@ struct EstimatedPath {
   }
 };
 
-// Integrates until the estimated error is within `tolerance`, or rounding forbids any better. A path that finds no end
-// is followed once more as finely as can be.
+// Integrates until the estimated error is within `tolerance`, or rounding forbids any better. A path that uses
+// up its budget is followed once more.
 EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator, double tolerance, StopCheck& stop) {
   constexpr double kFirst = 0.1;
   constexpr double kTighter = 0.1;
   constexpr double kFinest = 5e-16;
+  constexpr double kMiddle = 1e-9;
   constexpr double kCoarsest = 1e-6;
   EstimatedPath result;
-  result.tolerance = std::clamp(kFirst * tolerance, kFinest, kCoarsest);
+  bool is_second = false;
+  double next = std::clamp(kFirst * tolerance, kFinest, kCoarsest);
   for (;;) {
-    result.path = FollowPath(contact, integrator, result.tolerance, stop, nullptr);
-    result.Count(result.path);
-    result.error = std::numeric_limits<double>::infinity();
+    Path path = FollowPath(contact, integrator, next, stop, nullptr);
+    result.Count(path);
+    // A finer path that finds no end says less than the one before.
+    if (!path.HasEnd() && result.path.HasEnd()) return result;
+    result.path = std::move(path);
+    result.tolerance = next;
     if (!result.path.HasEnd()) {
-      // A force far above that of the impact leaves the last of the energy to decide whether the bodies part.
-      if (result.path.how != PathEnd::kBudgetUsedUp || result.tolerance == kFinest || stop.WasStopped()) return result;
-      result.tolerance = kFinest;
+      result.error = std::numeric_limits<double>::infinity();
+      if (result.path.how != PathEnd::kBudgetUsedUp || is_second || stop.WasStopped()) return result;
+      // A force far above that of the impact leaves the last of the energy to decide whether the bodies part, which
+      // takes a fine path; many sticks and slips take more steps than there are on a fine path.
+      next = next > kMiddle ? kFinest : kMiddle;
+      is_second = true;
       continue;
     }
     result.error = ErrorOf(contact, result.path);
-    if (result.error <= tolerance || result.tolerance == kFinest) return result;
-    const double missing = 0.5 * tolerance / result.error;
-    result.tolerance = std::max(kFinest, result.tolerance * std::min(missing, kTighter));
+    if (result.error <= tolerance || is_second || next == kFinest) return result;
+    next = std::max(kFinest, next * std::min(0.5 * tolerance / result.error, kTighter));
   }
 }
 

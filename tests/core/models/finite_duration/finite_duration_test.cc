@@ -629,6 +629,24 @@ TEST(FiniteDurationTest, ACoarseToleranceFindsTheEndOfAContactThatIsPressedHard)
   }
 }
 
+TEST(FiniteDurationTest, ATighterToleranceLosesNoAnswer) {
+  // Sticks and slips so often that the finest integration uses up its budget.
+  Problem problem = {
+      .contact = {.w = {17.63, 2.16, 0.2752}, .u0 = 0.05912, .v0 = -1.0, .mu = 1.506, .mu_static = 1.506},
+      .normal_acceleration = 0.1258,
+      .spring = LinearSpring{1e4},
+      .ratio_squared = 0.001562,
+      .tolerance = 1e-4};
+  problem.contact.coefficient = 1.0;
+  const Impact loose = Solve(problem);
+  problem.tolerance = 1e-12;
+  const Impact tight = Solve(problem);
+  ASSERT_EQ(loose.termination, Termination::kConverged);
+  EXPECT_NE(tight.regime, Regime::kWedged);
+  EXPECT_LE(std::fabs(tight.v1 - loose.v1), loose.error_estimate + tight.error_estimate);
+  EXPECT_LE(tight.error_estimate, 1e-3);
+}
+
 TEST(FiniteDurationTest, WhatIsPulledApartBeforeItsSpringIsFeltFollowsThePull) {
   // v = v0 + a t down to d_max = v0^2/(2 a), then to (1 - eta^2) d_max, where the curve of unloading ends.
   constexpr double kPull = 0.2;
