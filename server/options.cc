@@ -45,7 +45,7 @@ constexpr char kMetricsRule[] = "must be HOST:PORT with a port from 0 to 65535, 
 
 constexpr char kEmptyRule[] = "must not be empty";
 
-// What was meant for the next option has become the value of one that lacks its own.
+// The rule for an option without a value, which has taken the name of the next option for it.
 constexpr char kOptionForValue[] = "must be a value, not an option; the name of a file may begin with ./";
 
 template <typename Number>

@@ -547,8 +547,8 @@ void EstimateError(const Problem& problem, absl::FunctionRef<bool()> stopped, in
   result.error_is_proved = false;
 }
 
-// What a fall leaves is the limit of small coefficients only if friction does not stop and start slip during it. Such
-// coefficients tell: where they end elsewhere, theirs is the answer, with an error estimated from two of them.
+// Compares a plastic impact with two of small coefficients. It is their limit only if friction does not stop and start
+// slip while a force falls; where they end elsewhere, theirs is the answer, with an error estimated from the two.
 void CompareWithSmallCoefficients(const Problem& problem, const std::optional<Mirror>& mirror,
                                   absl::FunctionRef<bool()> stopped, int64_t budget, Attained& result) {
   constexpr double kAgree = 1e-5;

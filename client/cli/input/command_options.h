@@ -31,7 +31,7 @@ using Command = std::function<absl::Status()>;
 CLI::App* AddSubcommand(CLI::App& app, const char* name, const char* help, const char* example, Command run,
                         Command& command);
 
-// The same with options of its own, which live as long as it does.
+// Adds a subcommand that has options of its own, which live as long as it does.
 template <typename Options>
 std::pair<CLI::App*, Options*> AddCommand(CLI::App& app, const char* name, const char* help, const char* example,
                                           std::function<absl::Status(const Options&)> run, Command& command) {

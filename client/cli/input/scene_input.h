@@ -47,7 +47,7 @@ struct SceneFlag {
 absl::Span<const SceneFlag> SceneFlags();
 
 void AddSceneOptions(CLI::App& app, SceneOptions& options);
-// The same for ReadAnyScene.
+// Adds the options that ReadAnyScene reads.
 void AddAnySceneOptions(CLI::App& app, SceneOptions& options);
 // --mechanism FILE, --keep and --composite.
 void AddMechanismOptions(CLI::App& app, SceneOptions& options);

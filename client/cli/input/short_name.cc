@@ -92,7 +92,7 @@ static absl::StatusOr<std::string> FullDerivative(const DerivativeName& name, co
   return DerivativeName{*std::move(of), *std::move(by)}.Text();
 }
 
-// The same among columns that are derivatives.
+// Completes the names in a column that is a derivative.
 static absl::StatusOr<std::string> FullDerivative(const DerivativeName& name, const std::vector<std::string>& known) {
   std::set<std::string> ofs, bys;
   for (const std::string& column : known) {

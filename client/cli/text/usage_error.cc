@@ -100,14 +100,14 @@ std::string ValueError(const CLI::App& app, const std::vector<std::string>& word
 }
 
 std::string UsageError(const CLI::App& app, const CLI::ParseError& error) {
-  const CLI::App& chosen = Chosen(app);
-  const std::vector<std::string> extras = app.remaining(/*recurse=*/true);
-  const bool lacks_subcommand = !chosen.get_subcommands({}).empty();
-  const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExcludesError)) {
     return absl::StrCat(absl::StrReplaceAll(error.what(), {{" excludes ", " cannot be combined with "}}),
                         ": give one of them");
   }
+  const CLI::App& chosen = Chosen(app);
+  const std::vector<std::string> extras = app.remaining(/*recurse=*/true);
+  const bool lacks_subcommand = !chosen.get_subcommands({}).empty();
+  const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
   if (extras.empty() || (!lacks_subcommand && !is_extra)) {
     return lacks_subcommand && extras.empty() ? NoSubcommand(chosen) : error.what();
   }

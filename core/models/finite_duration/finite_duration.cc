@@ -182,7 +182,7 @@ struct EstimatedPath {
 };
 
 // Integrates until the estimated error is within `tolerance`, or rounding forbids any better. A path that uses
-// up its budget is followed once more.
+// up its budget is followed once more, finely if it was coarse and coarsely if it was fine.
 EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator, double tolerance, StopCheck& stop) {
   constexpr double kFirst = 0.1;
   constexpr double kTighter = 0.1;
@@ -202,8 +202,8 @@ EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator,
     if (!result.path.HasEnd()) {
       result.error = std::numeric_limits<double>::infinity();
       if (result.path.how != PathEnd::kBudgetUsedUp || is_second || stop.WasStopped()) return result;
-      // A force far above that of the impact leaves the last of the energy to decide whether the bodies part, which
-      // takes a fine path; many sticks and slips take more steps than there are on a fine path.
+      // A force far above that of the impact leaves it to a small rest of the energy whether the bodies part: that
+      // needs a fine path. A path of many sticks and slips uses up its budget only if it is fine.
       next = next > kMiddle ? kFinest : kMiddle;
       is_second = true;
       continue;

@@ -115,7 +115,7 @@ class PathFollower {
   void NoteFirstStop() {
     if (path_.first_stop != FirstStop::kNever) return;
     path_.first_stop = y_[kV] < 0.0 && !compression_ended_ ? FirstStop::kInCompression : FirstStop::kInRestitution;
-    // A spring along t takes part in every stop. What it turns into follows as without one.
+    // A spring along t makes every stop stick at first. The regime says how a contact that is rigid along t goes on.
     path_.first_stop_sticks = contact_.compliant ? contact_.holds_freely : mode_.Sticks();
   }
 

@@ -174,7 +174,7 @@ bool Solver<T>::SwitchToStraight(const SlipFrame<T>& slip_frame) {
     SlideStraight(impact_, *attracting);
     return true;
   }
-  // Else slip across the direction of Wtt stays, and turns slip as long as slip grows.
+  // Slip that grows along the direction of Wtt keeps its part across it, and never stops turning.
   if (!StandsAlong(*attracting)) return false;
   StandSlipAlong(*attracting);
   SlideStanding(impact_, *attracting);
@@ -182,7 +182,7 @@ bool Solver<T>::SwitchToStraight(const SlipFrame<T>& slip_frame) {
 }
 
 // True if slip along e, which attracts its neighbours, keeps its size as well. Where Wtt is singular, slip is attracted
-// by the direction of Wtt if it grows along it, and stands else.
+// by the direction of Wtt if it grows along it; otherwise it comes to stand.
 template <typename T>
 bool Solver<T>::StandsAlong(const Direction<T>& e) const {
   const Direction<T> d = problem_.w.TangentDirection();
