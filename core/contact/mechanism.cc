@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/numerics/compensated_dot.h"
+#include "core/numerics/compensated_sums.h"
 
 namespace ricochet {
 namespace {
@@ -32,13 +32,10 @@ void SetResidual(const FreePart& part, Response& response) {
   const Index n = part.mass.rows();
   const double noise = CompensatedNoise(n);
   for (Index j = 0; j < part.jt.cols(); ++j) {
-    for (Index i = 0; i < n; ++i) {
-      CompensatedDot sum(part.jt(i, j));
-      for (Index k = 0; k < n; ++k) sum.Add(-part.mass(k, i), response.x(k, j));
-      response.residual(i, j) = sum.value();
-      response.doubt(i, j) = noise * sum.size() + kUnit * std::fabs(sum.value());
-    }
+    CompensatedResidual(part.mass.data(), response.x.col(j).data(), part.jt.col(j).data(), static_cast<size_t>(n),
+                        response.residual.col(j).data(), response.doubt.col(j).data());
   }
+  response.doubt = noise * response.doubt + kUnit * response.residual.cwiseAbs();
 }
 
 }  // namespace
@@ -74,19 +71,23 @@ InverseBounds::InverseBounds(const Eigen::LLT<MatrixXd>& cholesky, double trace)
   norm = 1.3 * std::sqrt(square);
 }
 
-LeastEigenvalue LeastEigenvalueOf(const std::vector<double>& matrix, size_t n) {
+ScaledMass::ScaledMass(const std::vector<double>& matrix, size_t n) {
   const auto size = static_cast<Index>(n);
-  MatrixXd scaled = Eigen::Map<const MatrixXd>(matrix.data(), size, size);
-  VectorXd scales(size);
-  for (Index i = 0; i < size; ++i) scales(i) = ScaleFor(scaled(i, i));
-  scaled = scales.asDiagonal() * scaled * scales.asDiagonal();
-  const double least = 16.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
-  // 1/trace M^-1 is at most the smallest eigenvalue.
-  const double inverse_norm = InverseBounds(Eigen::LLT<MatrixXd>(scaled), scaled.trace()).norm;
-  const double bound = 1.0 / (inverse_norm * inverse_norm);
-  if (bound > least) return {.value = bound, .least = least};
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
-  return {.value = solver.eigenvalues()(0), .least = least};
+  least_ = 16.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+  matrix_ = Eigen::Map<const MatrixXd>(matrix.data(), size, size);
+  const VectorXd scales = matrix_.diagonal().unaryExpr(&ScaleFor);
+  matrix_ = scales.asDiagonal() * matrix_ * scales.asDiagonal();
+}
+
+bool ScaledMass::IsSurelyDefinite() const {
+  const Index n = matrix_.rows();
+  // The factor is that of a matrix that differs by no more than (n + 1) u times its trace.
+  const double shift = least_ + static_cast<double>(n + 2) * kUnit * matrix_.trace();
+  return Eigen::LLT<MatrixXd>(matrix_ - shift * MatrixXd::Identity(n, n)).info() == Eigen::Success;
+}
+
+double ScaledMass::SmallestEigenvalue() const {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(matrix_, Eigen::EigenvaluesOnly).eigenvalues()(0);
 }
 
 FreePart::FreePart(const Mechanism& mechanism) : FreePart(mechanism, TangentialDirections(mechanism) == 2) {}
@@ -114,28 +115,29 @@ Response::Response(const FreePart& part) : cholesky(part.mass) {
   x = residual = doubt = MatrixXd::Zero(n, directions);
   w = w_size = MatrixXd::Zero(directions, directions);
   if (n == 0) return;
-  x = cholesky.solve(part.jt);
+  // For so few columns Eigen solves each alone faster than all at once.
+  for (Index j = 0; j < directions; ++j) x.col(j) = cholesky.solve(part.jt.col(j));
   SetResidual(part, *this);
-  x += cholesky.solve(residual);
+  for (Index j = 0; j < directions; ++j) x.col(j) += cholesky.solve(residual.col(j));
   SetResidual(part, *this);
   for (Index i = 0; i < directions; ++i) {
     for (Index j = i; j < directions; ++j) {
-      CompensatedDot sum;
-      for (Index k = 0; k < n; ++k) sum.Add(part.jt(k, i), x(k, j));
-      for (Index k = 0; k < n; ++k) sum.Add(x(k, i), residual(k, j));
-      w(i, j) = w(j, i) = sum.value();
-      w_size(i, j) = w_size(j, i) = sum.size();
+      const CompensatedSum sum = CompensatedDots(part.jt.col(i).data(), x.col(j).data(), x.col(i).data(),
+                                                 residual.col(j).data(), static_cast<size_t>(n));
+      w(i, j) = w(j, i) = sum.value;
+      w_size(i, j) = w_size(j, i) = sum.size;
     }
   }
 }
 
-std::vector<double> MomentumOf(const Mechanism& mechanism, absl::Span<const double> response) {
+std::vector<double> MomentumOf(const Mechanism& mechanism, const std::vector<Index>& free,
+                               absl::Span<const double> response) {
   const auto n = static_cast<Index>(mechanism.rates.size());
   const auto directions = static_cast<Index>(TangentialDirections(mechanism) + 1);
   std::vector<double> momentum(response.size());
   const auto at = [directions](Index i, Index j) { return static_cast<size_t>(i * directions + j); };
   std::vector<bool> is_held(mechanism.rates.size(), true);
-  for (const Index i : FreeCoordinates(mechanism)) is_held[static_cast<size_t>(i)] = false;
+  for (const Index i : free) is_held[static_cast<size_t>(i)] = false;
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < directions; ++j) {
       double& sum = momentum[at(i, j)];
@@ -152,10 +154,9 @@ std::vector<double> MomentumOf(const Mechanism& mechanism, absl::Span<const doub
 ContactMotion::ContactMotion(const Mechanism& mechanism) {
   const size_t n = mechanism.rates.size();
   for (size_t i = 0; i < mechanism.jacobian.size() / n; ++i) {
-    CompensatedDot sum;
-    for (size_t k = 0; k < n; ++k) sum.Add(mechanism.jacobian[i * n + k], mechanism.rates[k]);
-    velocity.push_back(sum.value());
-    size.push_back(sum.size());
+    const CompensatedSum sum = CompensatedDot(&mechanism.jacobian[i * n], mechanism.rates.data(), n);
+    velocity.push_back(sum.value);
+    size.push_back(sum.size);
   }
 }
 

@@ -31,13 +31,21 @@ struct InverseBounds {
   double norm;
 };
 
-// The smallest eigenvalue of a symmetric matrix (n x n, row by row) that is scaled to a diagonal in [1, 4), which must
-// be positive, and the smallest that counts as positive: 16 n eps.
-struct LeastEigenvalue {
-  double value;
-  double least;
+// A symmetric matrix (n x n, row by row) with a positive diagonal, scaled by powers of two to one in [1, 4).
+class ScaledMass {
+ public:
+  ScaledMass(const std::vector<double>& matrix, size_t n);
+
+  // The smallest eigenvalue that counts as positive: 16 n eps.
+  double least() const { return least_; }
+  // True if a Cholesky factor proves that all eigenvalues are above `least`. False may mean that some are close to it.
+  bool IsSurelyDefinite() const;
+  double SmallestEigenvalue() const;
+
+ private:
+  Eigen::MatrixXd matrix_;
+  double least_;
 };
-LeastEigenvalue LeastEigenvalueOf(const std::vector<double>& matrix, size_t n);
 
 struct FreePart {
   // The Jacobian may have the rows of several contacts; without `in_space` it has those of one.
@@ -61,8 +69,9 @@ struct Response {
   Eigen::MatrixXd w_size;  // The sum of the magnitudes of the terms of each entry of W.
 };
 
-// M M^-1 J^T of all coordinates, from M^-1 J^T (n x d, row by row), whose rows of coordinates that are held are 0.
-std::vector<double> MomentumOf(const Mechanism& mechanism, absl::Span<const double> response);
+// M M^-1 J^T of all coordinates, from those that are free and M^-1 J^T (n x d, row by row), whose other rows are 0.
+std::vector<double> MomentumOf(const Mechanism& mechanism, const std::vector<Eigen::Index>& free,
+                               absl::Span<const double> response);
 
 // J q' of all coordinates, row by row of J, and the sums of the magnitudes of its terms.
 struct ContactMotion {

@@ -169,7 +169,7 @@ AnyReduction ReduceMechanism(const Mechanism& mechanism) {
         &reduction.response[static_cast<size_t>(part.coordinates[static_cast<size_t>(i)] * kDirections)];
     for (Eigen::Index j = 0; j < kDirections; ++j) row[j] = part.scales(i) * solved.x(i, j);
   }
-  reduction.momentum = MomentumOf(mechanism, reduction.response);
+  reduction.momentum = MomentumOf(mechanism, part.coordinates, reduction.response);
   Settle(motion.size, reduction);
   return reduction;
 }

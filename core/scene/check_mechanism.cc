@@ -81,14 +81,15 @@ void CheckDefinite(const Mechanism& mechanism, Check& check) {
     });
   }
   if (!is_positive) return;
-  const LeastEigenvalue eigenvalue = LeastEigenvalueOf(mass, n);
-  check.Require(eigenvalue.value > eigenvalue.least, [&] {
+  const ScaledMass scaled(mass, n);
+  if (scaled.IsSurelyDefinite()) return;
+  const double eigenvalue = scaled.SmallestEigenvalue();
+  check.Require(eigenvalue > scaled.least(), [&] {
     std::vector<std::string> entries;
     for (size_t i = 0; i < n * n; ++i) entries.push_back(EntryOf(kMass, i));
     return MakeViolation(
-        kMass,
-        absl::StrCat("has the eigenvalue ", ShortestDecimal(eigenvalue.value), " when scaled to a diagonal in [1, 4)"),
-        absl::StrCat("be positive definite, with eigenvalues above rounding, ", ShortestDecimal(eigenvalue.least)),
+        kMass, absl::StrCat("has the eigenvalue ", ShortestDecimal(eigenvalue), " when scaled to a diagonal in [1, 4)"),
+        absl::StrCat("be positive definite, with eigenvalues above rounding, ", ShortestDecimal(scaled.least())),
         ViolationKind::kValue, std::move(entries));
   });
 }
