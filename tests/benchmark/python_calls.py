@@ -21,6 +21,7 @@ import ricochet  # noqa: E402  # pylint: disable=wrong-import-position
 ROUNDS = 15
 CALLS = 200  # In one sample.
 ROWS = 1_000
+STATES = 10_000
 A, B, ETA = 0.3, 1.0, 0.9
 SCENE = {
     "pendulum": {"inertia_kg_m2": 1, "a_m": A, "b_m": B, "omega_minus_rad_s": -1},
@@ -49,17 +50,40 @@ def contacts_of(client):
     return client.solve_batch(CONTACT, inputs, ["contact_velocity_after.normal_m_s"])
 
 
-def repeated(call):
+def arms():
+    """M, J and q' of arms with seven joints, whose contact approaches along z."""
+    random = np.random.default_rng(1)
+    roots = random.normal(size=(STATES, 7, 7))
+    mass = roots @ roots.transpose(0, 2, 1) + 0.5 * np.eye(7)
+    jacobian = random.normal(size=(STATES, 3, 7))
+    rates = random.normal(size=(STATES, 7))
+    rates[np.einsum("bj,bj->b", jacobian[:, 2], rates) > 0] *= -1
+    return mass, jacobian, rates
+
+
+def repeated(call, calls):
     def run():
-        for _ in range(CALLS):
+        for _ in range(calls):
             call()
     return run
 
 
-def compare(name, here, there, what):
+def compare(name, here, there, what, calls=CALLS):
     """Prints the time of a call, and what another takes in its place."""
-    times, (ours, _) = processes.medians(ROUNDS, repeated(here), repeated(there))
-    print(f"  {name:<44} {ours / CALLS * 1e6:8.2f} us   {processes.ratio(times, 1, 0):7.2f} x as fast as {what}")
+    times, (ours, _) = processes.medians(ROUNDS, repeated(here, calls), repeated(there, calls))
+    print(f"  {name:<44} {ours / calls * 1e6:8.2f} us   {processes.ratio(times, 1, 0):7.2f} x as fast as {what}")
+
+
+def compare_arms():
+    mass, jacobian, rates = arms()
+    def strike():
+        return ricochet.at_contact(mass, jacobian, rates, [0, 0, 1], friction=0.3, energetic=0.5)
+    taken = np.einsum("bij,bi->bj", jacobian, strike().impulse_n_s)
+    change = np.linalg.solve(mass, taken[..., None])[..., 0]
+    if np.max(np.abs(strike().rates_after - rates - change)) > 1e-9:
+        sys.exit("the rates of at_contact and of NumPy differ")
+    compare(f"at_contact of {STATES} arms of seven joints", strike, lambda: np.linalg.cholesky(mass),
+            "NumPy's Cholesky factors alone", calls=1)
 
 
 def import_time(modules):
@@ -95,6 +119,7 @@ def main():
         compare(f"solve_batch of {ROWS} pendulums", lambda: newton_of(client), lambda: newton_of(remote), server)
         compare(f"solve_batch of {ROWS} planar contacts", lambda: contacts_of(client), lambda: contacts_of(remote), server)
         compare(f"solve_batch of {ROWS} pendulums", lambda: newton_of(client), newton_by_numpy, "NumPy's closed form")
+        compare_arms()
         compare_imports()
 
 
