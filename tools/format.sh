@@ -17,7 +17,7 @@ long_lines() {
     -o -name CMakeLists.txt -o -name '*.cmake' -o -path dev -o -path .ci/run \) -print0 |
     LC_ALL=C.UTF-8 xargs -0 grep -HnoE '^.{121}' | cut -d: -f1,2
   local page
-  for page in ./*.md docs/*.md; do
+  for page in ./*.md docs/*.md docs/theory/*.md deploy/*.md tests/data/*.md; do
     # shellcheck disable=SC2016  # The backquotes are those of Markdown.
     LC_ALL=C.UTF-8 sed -E '/^```/,/^```$/s/.*//; s/^(\||!\[|    ).*//' "$page" |
       LC_ALL=C.UTF-8 grep -nE '^.{121}' | cut -d: -f1 | sed "s#^#${page#./}:#" || true

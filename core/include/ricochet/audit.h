@@ -47,7 +47,14 @@ struct AuditColumns {
 };
 
 // The first two limits have the same numbers as in ricochet::LimitKind.
-enum class AuditLimit { kUnspecified = 0, kSharp = 1, kEnergy = 2, kNormalImpulse = 3, kPenetration = 4, kCone = 5 };
+enum class AuditLimit {
+  kUnspecified = 0,
+  kSharp = 1,          // The energetic coefficient is at most 1.
+  kEnergy = 2,         // No kinetic energy is gained.
+  kNormalImpulse = 3,  // The normal impulse is not negative.
+  kPenetration = 4,    // The bodies separate after the impact.
+  kCone = 5,           // The impulse lies in the friction cone.
+};
 inline constexpr int kAuditLimitCount = 6;
 
 enum class Verdict {
