@@ -27,7 +27,6 @@
 #include "server/base/signals.h"
 #include "server/options.h"
 #include "server/server.h"
-#include "server/server_limits.h"
 
 namespace ricochet::server {
 namespace {

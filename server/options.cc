@@ -25,6 +25,7 @@
 #include "absl/strings/strip.h"
 #include "core/base/nearest.h"
 #include "ricochet/engine_info.h"
+#include "server/calls/bounded_service.h"
 #include "server/security/callers.h"
 
 namespace ricochet::server {
@@ -332,6 +333,14 @@ void CheckNotOpen(const std::string& name, const std::vector<ListenAddress>& add
   }
 }
 
+// The page is never encrypted, whatever the service is, and no token travels to it.
+void CheckMetrics(const Options& options, std::vector<std::string>& violations) {
+  if (!options.metrics.has_value() || options.insecure || IsLocal(*options.metrics)) return;
+  violations.push_back(Violated("metrics", ToString(*options.metrics),
+                                "must be a loopback address (localhost, 127.0.0.0/8, [::1]) without --insecure; the "
+                                "page is not encrypted"));
+}
+
 void CheckTls(const Options& options, std::vector<std::string>& violations) {
   if (options.tls.certificate.empty() != options.tls.key.empty()) {
     violations.push_back(options.tls.key.empty() ? Violated("tls-cert", options.tls.certificate, "needs --tls-key")
@@ -346,7 +355,7 @@ void CheckTogether(const Options& options, std::vector<std::string>& violations)
   CheckTls(options, violations);
   CheckNotOpen("listen", options.listen, options, violations);
   CheckNotOpen("reflection", options.reflection, options, violations);
-  if (options.metrics.has_value()) CheckNotOpen("metrics", {*options.metrics}, options, violations);
+  CheckMetrics(options, violations);
   const bool only_unix = std::all_of(options.listen.begin(), options.listen.end(),
                                      [](const ListenAddress& address) { return address.is_unix(); });
   if (only_unix && !options.port_file.empty()) {
@@ -498,6 +507,22 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   CheckTogether(options, violations);
   if (!violations.empty()) return absl::InvalidArgumentError(absl::StrJoin(violations, "\n"));
   return parsed;
+}
+
+ServerLimits ServerLimitsOf(const Options& options) {
+  return {.max_message_bytes = kMostBytes,
+          .max_metadata_bytes = kMaxMetadataBytes,
+          .max_calls_per_connection = kMaxCallsPerConnection,
+          .max_connections = options.connections.in_all,
+          .max_connections_per_peer = options.connections.per_peer,
+          .max_live_calls = options.live_calls.calls,
+          .max_live_calls_per_peer = options.live_calls.calls_per_peer,
+          .max_streams = options.live_calls.streams,
+          .max_streams_per_peer = options.live_calls.streams_per_peer,
+          .max_waiting_calls = options.max_waiting_calls,
+          .max_unary_time_ms = options.time_limits.unary_time.count(),
+          .max_stream_age_ms = options.time_limits.stream_age.count(),
+          .write_stall_timeout_ms = options.unread_limit.count()};
 }
 
 }  // namespace ricochet::server

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "ricochet/info.h"
 #include "ricochet/limits.h"
 #include "server/admission/live_calls.h"
 #include "server/base/cpu_quota.h"
@@ -77,6 +78,9 @@ struct Notice {
 // Errors: INVALID_ARGUMENT with one line for each bad value, which names the option, the value and the rule; or
 // INVALID_ARGUMENT that names the first argument that is not an option.
 absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const char* const* argv);
+
+// The limits of a server beyond those of a request's size, as clients ask for them and the log states them.
+ServerLimits ServerLimitsOf(const Options& options);
 
 }  // namespace ricochet::server
 

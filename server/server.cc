@@ -14,7 +14,6 @@
 #include "server/base/port_file.h"
 #include "server/health/self_test.h"
 #include "server/health/serving_check.h"
-#include "server/server_limits.h"
 #include "server/telemetry/call_interceptor.h"
 #include "server/transport/transport.h"
 
@@ -146,15 +145,15 @@ void Server::SetServing(bool serving) {
 }
 
 void Server::StartWatchdog() {
-  const auto check =
-      std::make_shared<ServingCheck>(endpoint_->addresses(), endpoint_->acceptor(), scheduler_, kWatchdogPatience);
+  const auto check = [this](const std::stop_token& stop) {
+    return CheckServing(endpoint_->addresses(), endpoint_->acceptor(), scheduler_, kWatchdogPatience, stop);
+  };
   const auto report = [this](const absl::Status& status) {
     SetServing(status.ok());
     if (status.ok()) return log_.Write(LogLevel::kInfo, "serving again", {});
     log_.Write(LogLevel::kError, "cannot serve", {{"reason", std::string(status.message())}});
   };
-  watchdog_ = std::make_unique<Watchdog>(
-      kWatchdogPause, [check](const std::stop_token& stop) { return check->Run(stop); }, report);
+  watchdog_ = ricochet::server::StartWatchdog(kWatchdogPause, check, report);
 }
 
 absl::Status Server::OpenMetrics() {
@@ -196,7 +195,7 @@ void Server::LogAddresses(const std::string& event, const Endpoint& endpoint) co
 
 void Server::ServeUntil(const Signals& signals) {
   const std::string signal = signals.WaitForStop([this] { HangUp(); });
-  watchdog_.reset();
+  watchdog_ = {};
   serving_ = false;
   endpoint_->server().GetHealthCheckService()->SetServingStatus(false);
   // This line comes last, so that whoever reads it finds health NOT_SERVING.

@@ -79,7 +79,7 @@ class Server {
   std::unique_ptr<Endpoint> endpoint_;
   std::unique_ptr<Reflection> reflection_;     // Absent unless the options ask for it.
   std::unique_ptr<MetricsPage> metrics_page_;  // Absent unless the options ask for it.
-  std::unique_ptr<Watchdog> watchdog_;         // Runs from the start to the drain.
+  std::jthread watchdog_;                      // Runs from the start to the drain.
 };
 
 }  // namespace ricochet::server

@@ -11,9 +11,9 @@
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/plot/picture_input.h"
+#include "client/cli/program.h"
 #include "client/cli/report/audit_plot.h"
 #include "client/cli/report/audit_report.h"
-#include "client/cli/subcommands.h"
 #include "client/cli/text/number_input.h"
 
 namespace ricochet::cli {

@@ -190,10 +190,11 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
   int64_t size = 0;
   if (!is_standard) {
     std::error_code unknown;
-    if (!std::filesystem::is_directory(data.file, unknown)) file.open(data.file, std::ios::binary);
+    const bool is_directory = std::filesystem::is_directory(data.file, unknown);
+    if (!is_directory) file.open(data.file, std::ios::binary);
     if (!file.is_open()) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("cannot read ", data.file, ": ", std::strerror(errno == 0 ? EISDIR : errno)));
+      const int error = is_directory ? EISDIR : errno;
+      return absl::InvalidArgumentError(absl::StrCat("cannot read ", data.file, ": ", std::strerror(error)));
     }
     const auto bytes = std::filesystem::file_size(data.file, unknown);
     if (!unknown) size = static_cast<int64_t>(bytes);

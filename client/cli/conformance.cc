@@ -14,7 +14,7 @@
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/io/output.h"
-#include "client/cli/subcommands.h"
+#include "client/cli/program.h"
 #include "client/cli/text/number_input.h"
 #include "client/cli/text/table.h"
 #include "core/base/decimal.h"
@@ -113,7 +113,9 @@ absl::StatusOr<Grade> MakeGrade(const ConformanceOptions& options) {
   GradeDemand demand = {.law = options.law};
   const absl::StatusOr<double> tolerance = ParseNumber(options.tolerance, "--tolerance");
   if (!tolerance.ok()) return tolerance.status();
-  if (!(*tolerance > 0.0)) return InputError("--tolerance", options.tolerance, "be above 0");
+  if (!(*tolerance > 0.0 && std::isfinite(*tolerance))) {
+    return InputError("--tolerance", options.tolerance, "be above 0, and finite");
+  }
   demand.tolerance = *tolerance;
   if (absl::Status status = CheckConformanceLaw(options.law, "--law"); !status.ok()) return status;
   absl::StatusOr<std::vector<const ConformanceCase*>> asked = Asked(options);

@@ -14,7 +14,7 @@
 #include "client/cli/explore/web_server.h"
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
-#include "client/cli/subcommands.h"
+#include "client/cli/program.h"
 #include "client/cli/terminal/interrupt.h"
 #include "client/cli/text/json_text.h"
 #include "client/cli/text/number_input.h"

@@ -12,9 +12,8 @@
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/plot/picture_input.h"
-#include "client/cli/report/fit_plot.h"
+#include "client/cli/program.h"
 #include "client/cli/report/fit_report.h"
-#include "client/cli/subcommands.h"
 #include "client/cli/terminal/interrupt.h"
 #include "client/cli/text/number_input.h"
 
@@ -96,7 +95,7 @@ absl::Status RunFit(const FitOptions& options) {
   if (absl::Status status = ReadSearch(options, *request); !status.ok()) return status;
   const Interrupt interrupt;
   const absl::StatusOr<FitResponse> response = (*solver)->Fit(*request, {.stop = interrupt.token()});
-  if (!response.ok()) return response.status();
+  if (!response.ok()) return InTheTable(*request, response.status());
   absl::Status written = WriteAnswer(
       options.common, *response, [&] { return FitText(*request, *response); },
       [&] { return options.rows ? FitRowsCsv(*request, *response) : FitCsv(*response); });

@@ -5,7 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/input/make_solver.h"
-#include "client/cli/subcommands.h"
+#include "client/cli/program.h"
 
 namespace ricochet::cli {
 namespace {

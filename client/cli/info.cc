@@ -12,7 +12,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/input/make_solver.h"
-#include "client/cli/subcommands.h"
+#include "client/cli/program.h"
 #include "client/cli/text/enum_names.h"
 #include "proto/wire/plan.h"
 

@@ -9,7 +9,7 @@
 #include "client/cli/input/file_option.h"
 #include "client/cli/io/output.h"
 #include "client/cli/plot/picture_input.h"
-#include "client/cli/subcommands.h"
+#include "client/cli/program.h"
 #include "client/cli/sweep/sweep_file.h"
 #include "client/cli/sweep/sweep_plot.h"
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "client/cli/subcommands.h"
 #include "client/cli/text/help_format.h"
 #include "ricochet/engine_info.h"
 

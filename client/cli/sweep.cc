@@ -19,9 +19,8 @@
 #include "client/cli/io/output.h"
 #include "client/cli/io/used_files.h"
 #include "client/cli/plot/picture_input.h"
+#include "client/cli/program.h"
 #include "client/cli/report/invalid_points.h"
-#include "client/cli/subcommands.h"
-#include "client/cli/sweep/resume_command.h"
 #include "client/cli/sweep/shard.h"
 #include "client/cli/sweep/sweep_output.h"
 #include "client/cli/sweep/sweep_plot.h"
@@ -289,7 +288,7 @@ absl::Status RunSweep(const SweepOptions& options) {
   // This comes before the solver, which starts threads.
   const Interrupt interrupt;
   const absl::StatusOr<std::unique_ptr<Solver>> solver =
-      options.fan_out ? MakeFanOut(options.common, *threads) : MakeSolver(options.common, *threads);
+      MakeSolver(options.common, *threads, Limits::None(), options.fan_out);
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<SweepRequest> request =
       options.request.empty() ? RequestFromFlags(options) : RequestFromFile(options);

@@ -29,6 +29,9 @@ constexpr int kRays = 48;
 constexpr int kPlaces = 4;
 // A fit that finds a better one while it follows a ray starts again from there, so many times.
 constexpr int kMostRestarts = 4;
+// Before the data refuse a fit it is sought from so many further starts: where all rows stick, or none approaches, the
+// search sees no way to a better one.
+constexpr int kFurtherStarts = 16;
 
 // Refuses a start at which a measured number has no prediction.
 absl::Status CheckStart(const FitRequest& request, Model& model) {
@@ -54,18 +57,20 @@ absl::Status CheckStart(const FitRequest& request, Model& model) {
 }
 
 // The starts after the first, spread evenly by multiples of the generalized golden ratio: over the bounds, or from a
-// quarter to four times a start without two of them.
+// quarter to four times a start without two of them, and further the longer those that were not asked for go on.
 std::vector<double> StartOf(const Problem& problem, int number) {
   std::vector<double> start = problem.start;
   double ratio = 2.0;
   for (int i = 0; i < 40; ++i) ratio = Pow(1.0 + ratio, 1.0 / (static_cast<double>(start.size()) + 1.0));
+  const double reach = number < problem.starts ? 1.0 : 1.0 + (number - problem.starts) / 3.0;
   double step = 1.0;
   for (size_t k = 0; k < start.size() && number > 0; ++k) {
     step /= ratio;
     const double place = 0.5 + number * step;
     const double part = place - std::floor(place);
     const double width = problem.high[k] - problem.low[k];
-    const double spread = start[k] != 0.0 ? start[k] * Exp((4.0 * part - 2.0) * std::numbers::ln2) : 2.0 * part - 1.0;
+    const double spread =
+        start[k] != 0.0 ? start[k] * Exp((4.0 * part - 2.0) * reach * std::numbers::ln2) : 2.0 * part - 1.0;
     start[k] =
         std::isfinite(width) ? problem.low[k] + part * width : std::clamp(spread, problem.low[k], problem.high[k]);
   }
@@ -79,9 +84,13 @@ class Fitter {
       : problem_(problem), model_(model), all_free_(problem.unknowns(), true) {}
 
   FitResponse Fit() {
-    Search();
+    for (int number = 0; number < problem_.starts; ++number) SearchFrom(number);
     if (model_.is_stopped()) return {};  // There may be no fit yet to look at.
     Look();
+    for (int number = problem_.starts; number < problem_.starts + kFurtherStarts && IsRefused(); ++number) {
+      SearchFrom(number);
+      Look();
+    }
     for (int restart = 0; FollowUnknowns(restart < kMostRestarts) && !model_.is_stopped(); ++restart) Look();
     FollowRegion();
     Judge(problem_, best_.at, information_, model_, response_);
@@ -89,14 +98,28 @@ class Fitter {
   }
 
  private:
-  void Search() {
-    for (int number = 0; number < problem_.starts && !model_.is_stopped(); ++number) {
-      const std::vector<double> start = StartOf(problem_, number);
-      const Minimum found = Minimize(start, all_free_, kFineSearch, model_);
-      const bool has_start = std::isfinite(found.objective);
-      response_.starts.push_back({start, found.at, found.objective, found.iterations, found.converged && has_start});
-      if (number == 0 || found.objective < best_.objective) best_ = found;
+  void SearchFrom(int number) {
+    if (model_.is_stopped()) return;
+    const std::vector<double> start = StartOf(problem_, number);
+    const Minimum found = Minimize(start, all_free_, kFineSearch, model_);
+    // Of the starts that were not asked for, those tell something that lead to a better fit.
+    if (number >= problem_.starts && !(found.objective < best_.objective)) return;
+    const bool has_start = std::isfinite(found.objective);
+    response_.starts.push_back({start, found.at, found.objective, found.iterations, found.converged && has_start});
+    if (number == 0 || found.objective < best_.objective) best_ = found;
+  }
+
+  // True if the residuals of the best fit are too large for their errors.
+  bool IsRefused() {
+    std::vector<double> predicted;
+    if (!model_.Predict(best_.at, predicted)) return false;
+    double chi2 = 0.0;
+    for (size_t i = 0; i < predicted.size(); ++i) {
+      const double residual = problem_.numbers[i].Residual(predicted[i]);
+      chi2 += residual * residual;
     }
+    const double degrees = static_cast<double>(predicted.size()) - static_cast<double>(information_.rank);
+    return degrees > 0.0 && ChiSquaredBeyond(chi2, degrees) < kFitRefusedBelow;
   }
 
   // Sees what the data tell at the best fit.
@@ -111,7 +134,7 @@ class Fitter {
     }
     weights.resize(problem_.numbers.size(), 1.0);
     predicted.resize(problem_.numbers.size(), 0.0);
-    information_ = InformationOf(problem_, predicted, derivatives, weights);
+    information_ = InformationOf(problem_, best_.at, predicted, derivatives, weights);
   }
 
   // The distance at which an interval or a region should end.
@@ -160,7 +183,9 @@ class Fitter {
   }
 
   void SetEnd(const RayEnd& ray, double step, FitEnd& end, FitEstimate& estimate) const {
-    const double value = estimate.value + ray.distance * step;
+    const size_t k = response_.unknowns.size() - 1;
+    // The sum may round beyond a bound.
+    const double value = std::clamp(estimate.value + ray.distance * step, problem_.low[k], problem_.high[k]);
     end.kind = ray.kind;
     if (ray.kind == FitEndKind::kFound || ray.kind == FitEndKind::kCutByBound) end.value = value;
     // Bounds of a number that the data do not tell are no ends that the data gave.

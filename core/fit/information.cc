@@ -1,6 +1,7 @@
 #include "core/fit/information.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unsupported/Eigen/SpecialFunctions>
@@ -28,28 +29,30 @@ std::vector<double> SharesOf(const Problem& problem, const Eigen::VectorXd& colu
 
 }  // namespace
 
-Information InformationOf(const Problem& problem, const std::vector<double>& predicted,
+Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& predicted,
                           const std::vector<double>& derivatives, const std::vector<double>& weights) {
   const auto count = static_cast<Eigen::Index>(problem.numbers.size());
   const auto size = static_cast<Eigen::Index>(problem.unknowns());
   Eigen::MatrixXd slopes(count, size);
   double numbers = 0.0;  // The length of the numbers in sigmas.
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto at = static_cast<size_t>(i);
-    const double sigma = problem.numbers[at].sigma;
-    numbers = Hypot(numbers, predicted[at] / sigma);
+    const auto number = static_cast<size_t>(i);
+    const auto& [row, column, value, sigma] = problem.numbers[number];
+    numbers = Hypot(numbers, std::max(std::fabs(predicted[number]), std::fabs(value)) / sigma);
     for (Eigen::Index k = 0; k < size; ++k) {
-      slopes(i, k) = derivatives[at * problem.unknowns() + static_cast<size_t>(k)] * std::sqrt(weights[at]) / sigma;
+      const double slope = derivatives[number * problem.unknowns() + static_cast<size_t>(k)];
+      slopes(i, k) = slope * std::sqrt(weights[number]) / sigma;
     }
   }
   Eigen::VectorXd lengths = slopes.colwise().norm().transpose();
   Information information = {.is_seen = std::vector<bool>(problem.unknowns(), true)};
   information.row_shares.resize(problem.unknowns());
   for (Eigen::Index k = 0; k < size; ++k) {
-    const auto at = static_cast<size_t>(k);
-    const bool is_nothing = !(lengths[k] * problem.scale[at] > kNothing * numbers);
-    if (!is_nothing) information.row_shares[at] = SharesOf(problem, slopes.col(k));
-    information.is_seen[at] = !is_nothing;
+    const auto unknown = static_cast<size_t>(k);
+    const double scale = std::max(problem.scale[unknown], std::fabs(at[unknown]));
+    const bool is_nothing = !(lengths[k] * scale > kNothing * numbers);
+    if (!is_nothing) information.row_shares[unknown] = SharesOf(problem, slopes.col(k));
+    information.is_seen[unknown] = !is_nothing;
     slopes.col(k) *= is_nothing ? 0.0 : 1.0 / lengths[k];
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> parts(slopes, Eigen::ComputeThinU | Eigen::ComputeThinV);

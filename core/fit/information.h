@@ -21,8 +21,9 @@ struct Information {
   std::vector<std::vector<double>> row_shares;  // FitEstimate explains them; one list for each unknown.
 };
 
-// `derivatives` are those of the predicted numbers (core/fit/model.h), `weights` those of the squared residuals.
-Information InformationOf(const Problem& problem, const std::vector<double>& predicted,
+// `derivatives` are those of the predicted numbers at the unknowns `at` (core/fit/model.h), `weights` those of the
+// squared residuals.
+Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& predicted,
                           const std::vector<double>& derivatives, const std::vector<double>& weights);
 
 // The probability that chi-squared with so many degrees of freedom, > 0, exceeds a value, exact to some 1e-12 of 1.

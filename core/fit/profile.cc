@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace ricochet::fit {
@@ -54,15 +55,24 @@ class Ray {
 
   static RayEnd End(FitEndKind kind, double distance) { return {.kind = kind, .distance = distance}; }
 
-  // The other unknowns start where they ended last, and at the best fit.
+  // The other unknowns start where they ended last, and at the best fit. Numbers of which a product or a quotient alone
+  // is measured move by the factor of the one that is held, or by its inverse.
   RayPoint Next(double distance) {
+    const auto [low, high] = std::tie(model_.problem().low, model_.problem().high);
+    double factor = 1.0;
+    std::vector<double> held = best_.at;
+    for (size_t k = 0; k < held.size(); ++k) {
+      if (is_free_[k]) continue;
+      held[k] = std::clamp(best_.at[k] + distance * step_[k], low[k], high[k]);
+      if (last_[k] != 0.0) factor = held[k] / last_[k];
+    }
     Minimum least;
     least.objective = std::numeric_limits<double>::infinity();
-    for (const std::vector<double>& from : {last_, best_.at}) {
+    for (const auto& [from, by] :
+         {std::pair(last_, 1.0), std::pair(best_.at, 1.0), std::pair(last_, factor), std::pair(last_, 1.0 / factor)}) {
       std::vector<double> start = from;
       for (size_t k = 0; k < start.size(); ++k) {
-        if (is_free_[k]) continue;
-        start[k] = std::clamp(best_.at[k] + distance * step_[k], model_.problem().low[k], model_.problem().high[k]);
+        start[k] = is_free_[k] ? std::clamp(by * start[k], low[k], high[k]) : held[k];
       }
       Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
       if (found.objective < least.objective) least = std::move(found);

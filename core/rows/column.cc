@@ -193,6 +193,8 @@ ColumnReader::Reading ColumnReader::Read(const Outcome& outcome, std::vector<dou
     reading.status = RowStatus::kNotRepresentable;
   } else if (!outcome.admissible) {
     reading.status = RowStatus::kInadmissible;
+  } else if (outcome.termination != Termination::kConverged) {
+    reading.status = RowStatus::kNotConverged;
   } else if (!is_complete) {
     reading.status = RowStatus::kIncomplete;
   }

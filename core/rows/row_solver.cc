@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "absl/strings/match.h"
+#include "core/answer/outcome_parts.h"
 #include "core/answer/scene_outcome.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
@@ -14,9 +15,7 @@
 namespace ricochet {
 namespace {
 
-bool HasNumbers(RowStatus status) {
-  return status == RowStatus::kOk || status == RowStatus::kInadmissible || status == RowStatus::kIncomplete;
-}
+bool HasNumbers(RowStatus status) { return status != RowStatus::kInvalid && status != RowStatus::kNotRepresentable; }
 
 // True if `count` >= 1 entries are equal. Standard algorithms compare enums one by one, which takes several times as
 // long.
@@ -95,8 +94,11 @@ std::optional<size_t> RowSolver::SolveBlock(size_t count, absl::FunctionRef<bool
 // Rows that the lanes leave go by their scenes. Returns false if it was stopped.
 bool RowSolver::SolveInLanes(size_t count, absl::FunctionRef<bool()> stopped) {
   lanes_->Solve(lane_columns_->Of(fields_, count), count, other_places_, block_);
-  std::transform(block_.inadmissible.begin(), block_.inadmissible.begin() + count, statuses_.begin(),
-                 [](bool inadmissible) { return inadmissible ? RowStatus::kInadmissible : RowStatus::kOk; });
+  for (size_t i = 0; i < count; ++i) {
+    statuses_[i] = block_.inadmissible[i]                 ? RowStatus::kInadmissible
+                   : block_.regimes[i] == Regime::kWedged ? RowStatus::kNotConverged
+                                                          : RowStatus::kOk;
+  }
   if (block_.is_complete && derivatives_.empty()) return true;
   block_.is_complete = block_.is_uniform = false;
   for (size_t i = 0; i < count; ++i) {
@@ -127,6 +129,7 @@ std::optional<size_t> RowSolver::SolveScenes(size_t count, absl::FunctionRef<boo
   for (const auto& [i, place] : in_spatial_) {
     Outcome outcome;
     spatial_.SetOutcome(place, outcome);
+    CompareWithTolerance(demand_.relative_tolerance, outcome);
     SetRow(i, outcome);
   }
   return count;

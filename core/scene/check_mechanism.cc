@@ -61,7 +61,8 @@ bool CheckSymmetry(const Mechanism& mechanism, Check& check) {
       check.Require(false, [&] {
         return MakeViolation(EntryOf(kMass, j * n + i), lower,
                              absl::StrCat("be equal to the entry across the diagonal, [", i * n + j,
-                                          "] = ", ShortestDecimal(upper), " (row ", i, ", column ", j, ")"),
+                                          "] = ", ShortestDecimal(upper), " (row ", i, ", column ", j,
+                                          "); where they differ by rounding alone, (M + M^T)/2 is symmetric"),
                              {EntryOf(kMass, i * n + j)});
       });
     }

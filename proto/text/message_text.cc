@@ -6,6 +6,7 @@
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -17,11 +18,19 @@
 #include "proto/text/json_errors.h"
 #include "proto/text/json_matrices.h"
 #include "proto/wire/message_content.h"
-#include "ricochet/v1/multi_contact.pb.h"
-#include "ricochet/v1/scene.pb.h"
 
 namespace ricochet {
 namespace {
+
+// True if the text has the field `contacts`, which only scenes with several contacts have, outside comments.
+bool NamesContacts(const std::string& text) {
+  for (const absl::string_view line : absl::StrSplit(text, '\n')) {
+    const absl::string_view code = line.substr(0, line.find('#'));
+    const std::vector<absl::string_view> words = absl::StrSplit(code, absl::ByAnyChar(" \t\r{}[]<>:,;\"'"));
+    if (std::find(words.begin(), words.end(), "contacts") != words.end()) return true;
+  }
+  return false;
+}
 
 // The parser says: Message type "ricochet.v1.Pendulum" has no field named "am".
 std::string WithNearestField(const std::vector<std::string>& quoted) {
@@ -123,6 +132,11 @@ std::string WhyNoJson(const std::string& text, google::protobuf::Message& messag
     if (wrong.empty()) return "";
   }
   return absl::StrCat("is not a ", message.GetTypeName(), " in JSON: ", wrong);
+}
+
+std::string WhyNoScene(const std::string& path, const std::string& text, AnyScene& scene) {
+  if (NamesContacts(text)) return WhyNoMessage(path, text, scene.emplace<v1::MultiContactScene>());
+  return WhyNoMessage(path, text, scene.emplace<v1::Scene>());
 }
 
 }  // namespace ricochet

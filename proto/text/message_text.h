@@ -5,10 +5,10 @@
 #define RICOCHET_PROTO_TEXT_MESSAGE_TEXT_H_
 
 #include <string>
+#include <variant>
 
-namespace google::protobuf {
-class Message;
-}
+#include "ricochet/v1/multi_contact.pb.h"
+#include "ricochet/v1/scene.pb.h"
 
 namespace ricochet {
 
@@ -17,6 +17,10 @@ namespace ricochet {
 // text is none, with the line if the parser tells it: "is not a ricochet.v1.Scene in JSON: line 2, column 14: ..."; an
 // empty text if it is one.
 std::string WhyNoMessage(const std::string& path, const std::string& text, google::protobuf::Message& message);
+
+// What the file of a scene holds, one contact or several. It is read likewise.
+using AnyScene = std::variant<v1::Scene, v1::MultiContactScene>;
+std::string WhyNoScene(const std::string& path, const std::string& text, AnyScene& scene);
 
 // Reads a message from JSON, likewise.
 std::string WhyNoJson(const std::string& text, google::protobuf::Message& message);

@@ -31,19 +31,13 @@ struct CheckField {
   }
 };
 
-template <AuditLimit kLimit>
-static constexpr CheckField<kLimit> CheckEntry(const v1::LimitCheck& (v1::AuditLimits::*get)() const,
-                                               v1::LimitCheck* (v1::AuditLimits::*edit)()) {
-  return {get, edit};
-}
-
 using LimitEntries =
-    Entries<CheckEntry<AuditLimit::kSharp>(&v1::AuditLimits::sharp, &v1::AuditLimits::mutable_sharp),
-            CheckEntry<AuditLimit::kEnergy>(&v1::AuditLimits::energy, &v1::AuditLimits::mutable_energy),
-            CheckEntry<AuditLimit::kNormalImpulse>(&v1::AuditLimits::normal_impulse,
-                                                   &v1::AuditLimits::mutable_normal_impulse),
-            CheckEntry<AuditLimit::kPenetration>(&v1::AuditLimits::penetration, &v1::AuditLimits::mutable_penetration),
-            CheckEntry<AuditLimit::kCone>(&v1::AuditLimits::cone, &v1::AuditLimits::mutable_cone)>;
+    Entries<CheckField<AuditLimit::kSharp>{&v1::AuditLimits::sharp, &v1::AuditLimits::mutable_sharp},
+            CheckField<AuditLimit::kEnergy>{&v1::AuditLimits::energy, &v1::AuditLimits::mutable_energy},
+            CheckField<AuditLimit::kNormalImpulse>{&v1::AuditLimits::normal_impulse,
+                                                   &v1::AuditLimits::mutable_normal_impulse},
+            CheckField<AuditLimit::kPenetration>{&v1::AuditLimits::penetration, &v1::AuditLimits::mutable_penetration},
+            CheckField<AuditLimit::kCone>{&v1::AuditLimits::cone, &v1::AuditLimits::mutable_cone}>;
 
 template <>
 struct Map<AuditReport> : Between<AuditReport, v1::AuditReport> {
@@ -101,12 +95,6 @@ struct TallyField {
   }
 };
 
-template <AuditLimit kLimit>
-static constexpr TallyField<kLimit> TallyEntry(const v1::LimitTally& (v1::AuditSummary::*get)() const,
-                                               v1::LimitTally* (v1::AuditSummary::*edit)()) {
-  return {get, edit};
-}
-
 // An absent tally has no rows, and its first index is then -1 and not 0.
 template <>
 struct Map<AuditSummary> : Between<AuditSummary, v1::AuditSummary> {
@@ -114,11 +102,11 @@ struct Map<AuditSummary> : Between<AuditSummary, v1::AuditSummary> {
       Entries<Entry(&T::rows, &P::rows, &P::set_rows), Entry(&T::admissible, &P::admissible, &P::set_admissible),
               Defaulted(&T::invalid, &P::has_invalid, &P::invalid, &P::mutable_invalid),
               Defaulted(&T::unexplained, &P::has_unexplained, &P::unexplained, &P::mutable_unexplained),
-              TallyEntry<AuditLimit::kSharp>(&P::sharp, &P::mutable_sharp),
-              TallyEntry<AuditLimit::kEnergy>(&P::energy, &P::mutable_energy),
-              TallyEntry<AuditLimit::kNormalImpulse>(&P::normal_impulse, &P::mutable_normal_impulse),
-              TallyEntry<AuditLimit::kPenetration>(&P::penetration, &P::mutable_penetration),
-              TallyEntry<AuditLimit::kCone>(&P::cone, &P::mutable_cone)>;
+              TallyField<AuditLimit::kSharp>{&P::sharp, &P::mutable_sharp},
+              TallyField<AuditLimit::kEnergy>{&P::energy, &P::mutable_energy},
+              TallyField<AuditLimit::kNormalImpulse>{&P::normal_impulse, &P::mutable_normal_impulse},
+              TallyField<AuditLimit::kPenetration>{&P::penetration, &P::mutable_penetration},
+              TallyField<AuditLimit::kCone>{&P::cone, &P::mutable_cone}>;
 };
 
 // A column of rates is a message of its own, as a list of lists needs one.
@@ -184,7 +172,6 @@ struct Map<AuditBatchResponse> : Between<AuditBatchResponse, v1::AuditBatchRespo
 };
 
 v1::AuditReport ToProto(const AuditReport& report) { return Sent(report); }
-AuditReport FromProto(const v1::AuditReport& proto) { return Received<AuditReport>(proto); }
 
 v1::AuditRequest ToProto(const AuditRequest& request) { return Sent(request); }
 AuditRequest FromProto(const v1::AuditRequest& proto) { return Received<AuditRequest>(proto); }

@@ -21,7 +21,6 @@ v1::AuditBatchResponse ToProto(const AuditBatchResponse& response);
 AuditBatchResponse FromProto(const v1::AuditBatchResponse& proto);
 
 v1::AuditReport ToProto(const AuditReport& report);
-AuditReport FromProto(const v1::AuditReport& proto);
 
 template <>
 struct EnumPair<Verdict> : SameNumbers<v1::LimitCheck::Verdict, v1::LimitCheck::Verdict_IsValid> {};

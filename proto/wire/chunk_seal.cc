@@ -1,8 +1,5 @@
 #include "proto/wire/chunk_seal.h"
 
-#include <google/protobuf/io/coded_stream.h>
-#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
-
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/stable_hash.h"
@@ -10,21 +7,6 @@
 #include "proto/wire/sweep.h"
 
 namespace ricochet {
-namespace {
-
-std::string DeterministicBytes(const google::protobuf::Message& message) {
-  std::string bytes;
-  {
-    google::protobuf::io::StringOutputStream stream(&bytes);
-    google::protobuf::io::CodedOutputStream coded(&stream);
-    coded.SetSerializationDeterministic(true);
-    message.SerializeToCodedStream(&coded);
-  }
-  return bytes;
-}
-
-}  // namespace
-
 int64_t Crc32cOf(const v1::SweepResponse& chunk) {
   return ExtendCrc32c(ExtendCrc32c(ExtendCrc32c(0, chunk.values()), chunk.regimes()), chunk.statuses());
 }
@@ -34,7 +16,7 @@ std::string GridFingerprint(const SweepRequest& request) {
   proto.clear_first_index();
   proto.clear_end_index();
   StableHash hash;
-  hash.Add(DeterministicBytes(proto));
+  hash.Add(proto.SerializeAsString());  // It has no map, whose order would be open.
   return absl::StrCat(absl::Hex(hash.value(), absl::kZeroPad16));
 }
 

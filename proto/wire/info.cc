@@ -67,12 +67,6 @@ struct Map<InfoResponse> : Between<InfoResponse, v1::InfoResponse> {
 v1::InfoRequest ToProto(const InfoRequest& /*request*/) { return {}; }
 InfoRequest FromProto(const v1::InfoRequest& /*proto*/) { return {}; }
 
-v1::ServerLimits ToProto(const ServerLimits& limits) {
-  v1::ServerLimits proto;
-  ToProto(limits, proto);
-  return proto;
-}
-
 v1::InfoResponse ToProto(const InfoResponse& response) { return Sent(response); }
 InfoResponse FromProto(const v1::InfoResponse& proto) { return Received<InfoResponse>(proto); }
 

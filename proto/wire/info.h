@@ -11,8 +11,6 @@ namespace ricochet {
 v1::InfoRequest ToProto(const InfoRequest& request);
 InfoRequest FromProto(const v1::InfoRequest& proto);
 
-v1::ServerLimits ToProto(const ServerLimits& limits);
-
 v1::InfoResponse ToProto(const InfoResponse& response);
 InfoResponse FromProto(const v1::InfoResponse& proto);
 

@@ -21,7 +21,6 @@
 #include "python/module/record.h"
 #include "python/module/request.h"
 #include "python/module/rows.h"
-#include "python/module/states.h"
 #include "ricochet/client.h"
 #include "ricochet/engine_info.h"
 

@@ -10,7 +10,7 @@
 
 #include "core/rows/column.h"
 #include "core/scene/field.h"
-#include "proto/text/any_scene.h"
+#include "proto/text/message_text.h"
 #include "proto/wire/scene.h"
 #include "python/module/record.h"
 

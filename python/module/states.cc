@@ -1,5 +1,3 @@
-#include "python/module/states.h"
-
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -9,12 +7,14 @@
 #include <cstdint>
 #include <future>
 #include <limits>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "core/base/floating_point_mode.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
+#include "python/module/rows.h"
 #include "ricochet/helpers.h"
 #include "ricochet/system.h"
 
@@ -50,11 +50,42 @@ Vector UnitAcross(Vector vector, const Vector& normal) {
   return vector;
 }
 
+Vector Cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// The velocities of a contact in world axes, one for each of `n` rates of 1.
+struct Velocities {
+  size_t n;
+  const double* jacobian;
+
+  Vector Of(size_t k) const { return {jacobian[k], jacobian[n + k], jacobian[2 * n + k]}; }
+};
+
+// The only direction across `normal` in which the contact of a planar mechanism can move, if there is only one. What
+// rounding leaves beside it is no second direction, however the plane stands in the world.
+std::optional<Vector> OnlySlip(const Velocities& velocities, const Vector& normal) {
+  const auto across = [&normal](const Vector& velocity) { return Cross(normal, velocity); };
+  size_t largest = 0;
+  double square = 0.0;
+  for (size_t k = 0; k < velocities.n; ++k) {
+    const Vector part = across(velocities.Of(k));
+    if (Dot(part, part) > square) largest = k;
+    square = std::max(square, Dot(part, part));
+  }
+  if (!(square > 0.0) || !std::isfinite(square)) return std::nullopt;
+  const Vector direction = UnitAcross(velocities.Of(largest), normal);
+  const Vector side = Cross(normal, direction);
+  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+  for (size_t k = 0; k < velocities.n; ++k) {
+    const Vector velocity = velocities.Of(k);
+    if (std::fabs(Dot(side, velocity)) > kRounding * std::sqrt(Dot(velocity, velocity))) return std::nullopt;
+  }
+  return direction;
+}
+
 // The axes t1, t2 and n of a contact: n along `normal`, t1 along the slip, or anywhere if nothing slips.
-std::array<Vector, 3> AxesOf(const Vector& velocity, Vector normal) {
-  normal = Scaled(normal);
-  const double length = std::sqrt(Dot(normal, normal));
-  for (double& component : normal) component /= length;
+std::array<Vector, 3> AxesOf(const Vector& velocity, const Vector& normal) {
   Vector t1 = UnitAcross(velocity, normal);
   if (!std::isfinite(Dot(t1, t1))) {
     Vector any = {};
@@ -62,9 +93,7 @@ std::array<Vector, 3> AxesOf(const Vector& velocity, Vector normal) {
     any[static_cast<size_t>(std::min_element(normal.begin(), normal.end(), smaller) - normal.begin())] = 1.0;
     t1 = UnitAcross(any, normal);
   }
-  const Vector t2 = {normal[1] * t1[2] - normal[2] * t1[1], normal[2] * t1[0] - normal[0] * t1[2],
-                     normal[0] * t1[1] - normal[1] * t1[0]};
-  return {t1, t2, normal};
+  return {t1, Cross(normal, t1), normal};
 }
 
 // The arrays of a call: those of the caller, and those of the answer.
@@ -72,7 +101,7 @@ struct States {
   size_t coordinates;
   const double *mass, *jacobian, *rates, *normal;
   std::array<double*, 9> contact;  // W by its upper triangle, then the contact velocity.
-  double *axes, *response;
+  double *axes, *turned, *response;
   Mechanism kept;  // It says which coordinates are held.
 };
 
@@ -83,20 +112,28 @@ void Reduce(const States& states, size_t state, Scene& scene) {
   const double* const mass = states.mass + state * n * n;
   const double* const jacobian = states.jacobian + state * 3 * n;
   const double* const rates = states.rates + state * n;
-  const double* const normal = states.normal + state * 3;
+  const double* const given = states.normal + state * 3;
+  Vector normal = Scaled({given[0], given[1], given[2]});
+  const double length = std::sqrt(Dot(normal, normal));
+  for (double& component : normal) component /= length;
   Vector velocity = {};
   for (size_t i = 0; i < 3; ++i) {
     for (size_t k = 0; k < n; ++k) velocity[i] += jacobian[i * n + k] * rates[k];
   }
-  const std::array<Vector, 3> axes = AxesOf(velocity, {normal[0], normal[1], normal[2]});
+  const Velocities velocities = {n, jacobian};
+  const std::optional<Vector> only = OnlySlip(velocities, normal);
+  const double sign = only.has_value() && Dot(*only, velocity) < 0.0 ? -1.0 : 1.0;
+  const std::array<Vector, 3> axes =
+      AxesOf(only.has_value() ? Vector{sign * (*only)[0], sign * (*only)[1], sign * (*only)[2]} : velocity, normal);
   mechanism.mass_matrix.assign(mass, mass + n * n);
   mechanism.rates.assign(rates, rates + n);
   for (size_t i = 0; i < 3; ++i) {
     std::copy(axes[i].begin(), axes[i].end(), states.axes + (state * 3 + i) * 3);
     for (size_t k = 0; k < n; ++k) {
-      mechanism.jacobian[i * n + k] = Dot(axes[i], {jacobian[k], jacobian[n + k], jacobian[2 * n + k]});
+      mechanism.jacobian[i * n + k] = only.has_value() && i == 1 ? 0.0 : Dot(axes[i], velocities.Of(k));
     }
   }
+  std::copy(mechanism.jacobian.begin(), mechanism.jacobian.end(), states.turned + state * 3 * n);
   SpatialReduction reduction;
   reduction.w.fill(std::numeric_limits<double>::quiet_NaN());
   Check check(Check::Mode::kVerdict);
@@ -135,12 +172,13 @@ void ReduceAll(const States& states, int64_t count) {
 }
 
 // Returns the columns of the contacts (W by its upper triangle, then the contact velocity), the axes t1, t2, n of each
-// (B x 3 x 3), and M^-1 J^T in them (B x n x 3). M is B x n x n, J is B x 3 x n, q' B x n and the normals B x 3.
+// (B x 3 x 3), J in them (B x 3 x n), and M^-1 J^T (B x n x 3). M is B x n x n, J is B x 3 x n, q' B x n and the normals B x 3.
 py::tuple ReduceStates(const Numbers& mass, const Numbers& jacobian, const Numbers& rates, const Numbers& normal,
                        const std::vector<int32_t>& held) {
   const py::ssize_t count = rates.shape(0);
   const py::ssize_t n = rates.shape(1);
   Numbers axes({count, py::ssize_t{3}, py::ssize_t{3}});
+  Numbers turned({count, py::ssize_t{3}, n});
   Numbers response({count, n, py::ssize_t{3}});
   States states = {.coordinates = static_cast<size_t>(n),
                    .mass = mass.data(),
@@ -149,6 +187,7 @@ py::tuple ReduceStates(const Numbers& mass, const Numbers& jacobian, const Numbe
                    .normal = normal.data(),
                    .contact = {},
                    .axes = axes.mutable_data(),
+                   .turned = turned.mutable_data(),
                    .response = response.mutable_data(),
                    .kept = {.kept_coordinates = held}};
   py::list columns;
@@ -158,7 +197,7 @@ py::tuple ReduceStates(const Numbers& mass, const Numbers& jacobian, const Numbe
     columns.append(std::move(made));
   }
   ReduceAll(states, count);
-  return py::make_tuple(columns, axes, response);
+  return py::make_tuple(columns, axes, turned, response);
 }
 
 }  // namespace

@@ -399,8 +399,8 @@ class Client:
 
         Returns:
             A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``; a number
-            that the outcome of a row leaves unset is NaN, and the status is ``"INCOMPLETE"``. A warning ``InvalidRows``
-            counts rows that break a rule, and ``table.summary.bad_rows`` has the reasons of the first ones.
+            that the outcome of a row leaves unset is NaN, and the status is ``"INCOMPLETE"``; ``"NOT_CONVERGED"`` is a row
+            whose ``accuracy.relative_error`` exceeds the tolerance. A warning ``InvalidRows`` counts rows that break a rule, and ``table.summary.bad_rows`` has the reasons of the first ones.
 
         Raises:
             InvalidRequest: the scene, a path, an entry or the length of an array is wrong.
@@ -487,7 +487,8 @@ class Client:
         Returns:
             The numbers of each column, ``regime``, and ``status``, which says whether a point is ``"OK"`` or
             ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN, and a warning ``InvalidRows`` says
-            so; one whose outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there. ``attrs`` has the request
+            so; one whose outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there; ``"NOT_CONVERGED"`` is one
+            whose ``accuracy.relative_error`` exceeds the tolerance. ``attrs`` has the request
             and the engine, under the names that the files of the command line have.
 
         Raises:
@@ -595,7 +596,7 @@ class Client:
         contact frame is made here: n along `normal`, t1 along the slip.
 
         Args:
-            M: the mass matrix, n x n, symmetric and positive definite.
+            M: the mass matrix, n x n, positive definite, and symmetric but for rounding: (M + M^T)/2 is taken.
             J: the Jacobian of the contact point in world axes, 3 x n: its velocity relative to what it strikes is
                 ``J @ qdot``, m/s.
             qdot: the generalised velocities before the impact, n.
@@ -618,7 +619,14 @@ class Client:
         states = mechanisms.States(M, J, qdot, normal, held)
         given = {"energetic": energetic, "newton": newton, "poisson": poisson}
         restitution = {name: value for name, value in given.items() if value is not None}
-        if not states.is_batch:
+        several = {name: np.size(value) for name, value in {"friction": friction, **restitution}.items()
+                   if np.ndim(value) == 1}
+        sizes = {*several.values(), states.count} - {1}
+        if len(sizes) > 1:
+            raise InvalidRequest.of([
+                Violation(name, f"has {size} numbers: must have one, or one for each of the {states.count} states")
+                for name, size in several.items() if size not in (1, states.count)])
+        if not states.is_batch and not several:
             parts = {"friction": {"kinetic_coefficient": friction}, "restitution": restitution}
             outcome = self.solve({**states.scene(0), **parts}, tolerance=tolerance)
             return AtContact(np.array(outcome.rates_after), states.in_world(outcome), outcome)
@@ -702,9 +710,9 @@ def _warn_of_invalid(table: Table) -> None:
     else:
         first = int(np.flatnonzero(np.isin(table.codes["status"].numbers, _WITHOUT_NUMBERS))[0])
         why = ", ".join(f"{name} = {value:.6g}" for name, value in table.inputs_of(first).items())
-    depth = 1
-    while sys._getframe(depth).f_globals.get("__name__", "").split(".")[0] == "ricochet":
-        depth += 1
+    depth, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").split(".")[0] == "ricochet":
+        depth, frame = depth + 1, frame.f_back
     text = (f"rows that break a rule and have NaN: {table.summary.invalid} of {len(table)}; "
             f"the first is row {first}: {why}")
     warnings.warn(text, InvalidRows, stacklevel=depth + 1)

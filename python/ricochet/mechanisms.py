@@ -36,6 +36,26 @@ class AtContact(NamedTuple):
     """The outcome of a single state, or the table of a batch."""
 
 
+_NO_DIRECTION = Violation("normal", "has no direction: must be finite and not 0")
+# The entries of M across the diagonal may differ by so much of the diagonal: products of matrices round so.
+_ROUNDING = 1e-12
+
+
+def _has_direction(normal: Numbers) -> bool:
+    return bool(0 < np.abs(normal).max() < np.inf)
+
+
+def _without_rounding(mass: Numbers) -> Numbers:
+    """Returns (M + M^T)/2 where M is symmetric but for rounding; other matrices stay as they are, to be refused."""
+    across = np.swapaxes(mass, -1, -2)
+    if np.array_equal(mass, across):
+        return mass
+    roots = np.sqrt(np.abs(np.diagonal(mass, axis1=-2, axis2=-1)))
+    is_rounding = np.abs(mass - across) <= _ROUNDING * roots[..., :, None] * roots[..., None, :]
+    every: Numbers = np.where(is_rounding.all(axis=(-2, -1), keepdims=True), 0.5 * (mass + across), mass)
+    return every
+
+
 class States:
     """States of a mechanism, with the contact of each: n along the normal, t1 along the slip."""
 
@@ -54,28 +74,29 @@ class States:
         if not wrong and len(several) > 1:
             found = ", ".join(f"{name} {array.shape}" for name, array in given.items())
             wrong.append(Violation("M", f"and the others have shapes {found}: must have as many states, or one"))
-        largest = np.abs(given["normal"]).max(axis=-1) if not wrong else np.ones(1)
-        if not np.all((largest > 0) & (largest < np.inf)):
-            wrong.append(Violation("normal", "has no direction: must be finite and not 0"))
+        self.is_batch = bool(lead)
+        if not wrong and not self.is_batch and not _has_direction(given["normal"]):
+            wrong.append(_NO_DIRECTION)
         listed = held if is_list(held) else [held]
         self.held = [int(scalar("int32", entry, f"held[{i}]")) for i, entry in enumerate(listed)]
         wrong += [Violation(f"held[{i}]", f"= {entry}: must be in [0, {n})")
                   for i, entry in enumerate(self.held) if not 0 <= entry < n]
         if wrong:
             raise InvalidRequest.of(wrong)
-        self.is_batch = bool(lead)
+        given["M"] = _without_rounding(given["M"])
         count = several.pop() if several else (1,)
+        self.count = count[0]
         arrays = {name: np.ascontiguousarray(np.broadcast_to(array, count + shapes[name]))
                   for name, array in given.items()}
-        self._mass, self._jacobian, self._rates, normals = arrays.values()
-        contacts, self._axes, self._response = _core.reduce_states(
-            self._mass, self._jacobian, self._rates, normals, self.held)
+        self._mass, jacobian, self._rates, self._normals = arrays.values()
+        contacts, self._axes, self._turned, self._response = _core.reduce_states(
+            self._mass, jacobian, self._rates, self._normals, self.held)
         self.columns: dict[str, ArrayLike] = dict(zip(_FIELDS, contacts))
 
     def scene(self, state: int) -> dict[str, Any]:
         """Returns the system of one state."""
         return {"mechanism": {
-            "mass_matrix": self._mass[state], "jacobian": self._axes[state] @ self._jacobian[state],
+            "mass_matrix": self._mass[state], "jacobian": self._turned[state],
             "rates": self._rates[state], "kept_coordinates": self.held}}
 
     def in_world(self, outcome: Record) -> Numbers:
@@ -91,10 +112,13 @@ class States:
 
     def explain(self, bad: Record) -> None:
         """Names the rule that a state of a batch breaks by its own field, and not by the contact it has no part of."""
+        state = min(bad.row, len(self._mass) - 1)  # One state may be struck in several ways.
+        if not _has_direction(self._normals[state]):
+            bad.update(field=_NO_DIRECTION.field, description=_NO_DIRECTION.description)
+            return
         try:
-            # One state may be struck in several ways.
             _core.in_process(None).solve(
-                {**self.scene(min(bad.row, len(self._mass) - 1)), "restitution": {"newton": 0.0}},
+                {**self.scene(state), "restitution": {"newton": 0.0}},
                 None, (), (), False, 0, 0, 0, False, None)
         except InvalidRequest as error:
             bad.update(field=error.violations[0].field, description=error.violations[0].description)

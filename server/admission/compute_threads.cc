@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <exception>
 #include <future>
 #include <memory>
 #include <utility>
@@ -25,17 +24,10 @@ ComputeThreads::~ComputeThreads() {
 }
 
 void ComputeThreads::Run(absl::FunctionRef<void()> work) {
-  // Shared, because this function may have returned before the other thread has left set_value.
-  const auto done = std::make_shared<std::promise<void>>();
-  std::future<void> ended = done->get_future();
-  Start([work, done] {
-    try {
-      work();
-      done->set_value();
-    } catch (...) {
-      done->set_exception(std::current_exception());
-    }
-  });
+  // Shared, because this function may have returned before the other thread has left the task.
+  const auto task = std::make_shared<std::packaged_task<void()>>(work);
+  std::future<void> ended = task->get_future();
+  Start([task] { (*task)(); });
   ended.get();
 }
 

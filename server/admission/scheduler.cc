@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include "absl/cleanup/cleanup.h"
+
 namespace ricochet::server {
 namespace {
 
@@ -19,29 +21,6 @@ constexpr int kStreamsAreNicer = 10;
 constexpr int kCheapSlotsPerCore = 8;
 
 constexpr size_t kUnlimited = std::numeric_limits<size_t>::max();
-
-// Frees a slot however the work ends, and learns how long it took.
-class Leaving {
- public:
-  Leaving(SlotQueue& queue, SlotQueue::Waiter& waiter, const ComputeRequest& request, ServiceTimes& times)
-      : slots_of_kind_(queue), waiter_(waiter), request_(request), times_(times) {}
-  ~Leaving() {
-    const double computed_s = slots_of_kind_.Leave(waiter_);
-    if (computed_ && request_.cost.has_value())
-      times_.Learn(*request_.cost, computed_s, Clock::now() >= waiter_.deadline);
-  }
-  Leaving(const Leaving&) = delete;
-  Leaving& operator=(const Leaving&) = delete;
-
-  void Computes() { computed_ = true; }
-
- private:
-  SlotQueue& slots_of_kind_;
-  SlotQueue::Waiter& waiter_;
-  const ComputeRequest& request_;
-  ServiceTimes& times_;
-  bool computed_ = false;
-};
 
 }  // namespace
 
@@ -81,12 +60,17 @@ absl::Status Scheduler::Compute(const ComputeRequest& request, absl::FunctionRef
   if (!is_stream) waiter.deadline = request.deadline.value_or(SlotQueue::Time::max());
   if (!is_stream) waiter.expected_s = times_.Expected(*request.cost);
   if (absl::Status refused = queue.Enter(waiter, request.is_gone); !refused.ok()) return refused;
-  Leaving leaving(queue, waiter, request, times_);
+  bool has_computed = false;
+  const absl::Cleanup leave = [&] {
+    const double computed_s = queue.Leave(waiter);
+    if (!has_computed || !request.cost.has_value()) return;
+    times_.Learn(*request.cost, computed_s, Clock::now() >= waiter.deadline);
+  };
   if (request.deadline.has_value() && Clock::now() >= *request.deadline) {
     return absl::DeadlineExceededError("the deadline passed before the call began");
   }
   if (request.is_gone()) return absl::CancelledError("the caller gave up before the call began");
-  leaving.Computes();
+  has_computed = true;
   if (is_cheap) {
     work();
   } else {

@@ -1,4 +1,4 @@
-// Watchdog: checks again and again, on a thread of its own, whether the server can serve, and reports each change.
+// The watchdog checks again and again, on a thread of its own, whether the server can serve, and reports each change.
 
 #ifndef RICOCHET_SERVER_ADMISSION_WATCHDOG_H_
 #define RICOCHET_SERVER_ADMISSION_WATCHDOG_H_
@@ -12,24 +12,12 @@
 
 namespace ricochet::server {
 
-class Watchdog {
- public:
-  // Returns OK, or why the server cannot serve. It must return soon once the token is requested to stop.
-  using Check = std::function<absl::Status(const std::stop_token&)>;
-  // Learns the result of a check that differs from the one before it; the server counts as good at the start.
-  using Report = std::function<void(const absl::Status&)>;
-
-  // Starts to check, with a pause before each check. Both functions run on the thread of the watchdog.
-  Watchdog(std::chrono::milliseconds pause, Check check, Report report);
-
-  // Stops to check and waits for the check that runs. `report` is not called any more.
-  ~Watchdog() = default;
-  Watchdog(const Watchdog&) = delete;
-  Watchdog& operator=(const Watchdog&) = delete;
-
- private:
-  std::jthread thread_;
-};
+// Starts to check, with a pause before each check. `check` returns OK, or why the server cannot serve; it must return
+// soon once its token is requested to stop. `report` learns the result of a check that differs from the one before it;
+// the server counts as good at the start. Both run on the thread. Its destruction waits for the check that runs, after
+// which `report` is not called any more.
+std::jthread StartWatchdog(std::chrono::milliseconds pause, std::function<absl::Status(const std::stop_token&)> check,
+                           std::function<void(const absl::Status&)> report);
 
 }  // namespace ricochet::server
 

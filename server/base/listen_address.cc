@@ -5,6 +5,7 @@
 #include <sys/un.h>
 
 #include <charconv>
+#include <cstdint>
 #include <system_error>
 
 namespace ricochet::server {
@@ -14,10 +15,10 @@ constexpr char kUnixScheme[] = "unix:";
 constexpr size_t kMostPathBytes = sizeof(sockaddr_un::sun_path) - 1;
 
 std::optional<int> ParsePort(const std::string& text) {
-  int port = 0;
+  uint16_t port = 0;
   const char* const end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, port);
-  if (result.ec != std::errc() || result.ptr != end || port < 0 || port > 65535) return {};
+  if (result.ec != std::errc() || result.ptr != end) return {};
   return port;
 }
 

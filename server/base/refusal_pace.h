@@ -7,6 +7,7 @@
 #ifndef RICOCHET_SERVER_BASE_REFUSAL_PACE_H_
 #define RICOCHET_SERVER_BASE_REFUSAL_PACE_H_
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <string>
@@ -23,7 +24,12 @@ class RefusalPace {
   static constexpr std::chrono::milliseconds kBetween{20};
 
   // Counts a refusal of a call that `peer` makes `now`, and returns when to tell it: now or later.
-  Time Next(const std::string& peer, Time now);
+  Time Next(const std::string& peer, Time now) {
+    std::erase_if(paid_until_, [now](const auto& entry) { return entry.second <= now; });
+    Time& paid_until = paid_until_.try_emplace(peer, now).first->second;
+    paid_until += kBetween;
+    return std::max(now, paid_until - kAtOnce * kBetween);
+  }
 
  private:
   std::map<std::string, Time> paid_until_;  // For each peer, the end of the time that its refusals stand for.

@@ -42,6 +42,7 @@ Descriptor ConnectUnix(const std::string& path, milliseconds patience) {
 
 Descriptor ConnectTcp(const ListenAddress& to, milliseconds patience) {
   addrinfo hints = {};
+  hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
   if (getaddrinfo(to.host.c_str(), std::to_string(to.port).c_str(), &hints, &found) != 0) return {};
@@ -58,43 +59,40 @@ int64_t Noticed(const Acceptor& acceptor) {
   return counts.accepted + counts.refused;
 }
 
-}  // namespace
-
-ServingCheck::ServingCheck(std::vector<ListenAddress> addresses, const Acceptor& acceptor, Scheduler& scheduler,
-                           milliseconds patience)
-    : addresses_(std::move(addresses)), acceptor_(acceptor), scheduler_(scheduler), patience_(patience) {}
-
-absl::Status ServingCheck::Run(const std::stop_token& stop) const {
-  for (const ListenAddress& address : addresses_) {
-    if (absl::Status status = CheckAddress(address, stop); !status.ok()) return status;
-  }
-  return CheckScheduler(stop);
-}
-
 // The kernel completes a connection although nobody accepts it, so the acceptor's own counts have to tell.
-absl::Status ServingCheck::CheckAddress(const ListenAddress& address, const std::stop_token& stop) const {
-  const int64_t before = Noticed(acceptor_);
-  const Descriptor connection =
-      address.is_unix() ? ConnectUnix(address.path, patience_) : ConnectTcp(address, patience_);
+absl::Status CheckAddress(const ListenAddress& address, const Acceptor& acceptor, milliseconds patience,
+                          const std::stop_token& stop) {
+  const int64_t before = Noticed(acceptor);
+  const Descriptor connection = address.is_unix() ? ConnectUnix(address.path, patience) : ConnectTcp(address, patience);
   if (!connection.is_open()) return CannotServe(address, absl::StrCat("cannot connect: ", std::strerror(errno)));
-  const auto end = steady_clock::now() + patience_;
-  while (Noticed(acceptor_) == before && !stop.stop_requested()) {
+  const auto end = steady_clock::now() + patience;
+  while (Noticed(acceptor) == before && !stop.stop_requested()) {
     if (steady_clock::now() >= end) {
-      return CannotServe(address, absl::StrCat("no connection was accepted for ", patience_.count(), " ms"));
+      return CannotServe(address, absl::StrCat("no connection was accepted for ", patience.count(), " ms"));
     }
     std::this_thread::sleep_for(kPause);
   }
   return absl::OkStatus();
 }
 
-absl::Status ServingCheck::CheckScheduler(const std::stop_token& stop) const {
+absl::Status CheckScheduler(Scheduler& scheduler, milliseconds patience, const std::stop_token& stop) {
   const ComputeRequest request = {.peer = "watchdog",
-                                  .deadline = steady_clock::now() + patience_,
+                                  .deadline = steady_clock::now() + patience,
                                   .is_gone = [&stop] { return stop.stop_requested(); },
                                   .cost = RequestCost()};
-  const absl::Status computed = scheduler_.Compute(request, [] {});
+  const absl::Status computed = scheduler.Compute(request, [] {});
   if (!absl::IsDeadlineExceeded(computed)) return absl::OkStatus();
-  return absl::UnavailableError(absl::StrCat("no call got its turn to compute for ", patience_.count(), " ms"));
+  return absl::UnavailableError(absl::StrCat("no call got its turn to compute for ", patience.count(), " ms"));
+}
+
+}  // namespace
+
+absl::Status CheckServing(const std::vector<ListenAddress>& addresses, const Acceptor& acceptor, Scheduler& scheduler,
+                          milliseconds patience, const std::stop_token& stop) {
+  for (const ListenAddress& address : addresses) {
+    if (absl::Status status = CheckAddress(address, acceptor, patience, stop); !status.ok()) return status;
+  }
+  return CheckScheduler(scheduler, patience, stop);
 }
 
 }  // namespace ricochet::server

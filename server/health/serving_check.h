@@ -1,4 +1,4 @@
-// ServingCheck: finds out whether this server can serve at all. A server that is full, or that refuses calls for a
+// CheckServing: finds out whether this server can serve at all. A server that is full, or that refuses calls for a
 // while, can serve; one whose accept loop has ended, or in which no cheap call gets its turn to compute, cannot.
 
 #ifndef RICOCHET_SERVER_HEALTH_SERVING_CHECK_H_
@@ -15,26 +15,11 @@
 
 namespace ricochet::server {
 
-class ServingCheck {
- public:
-  // Each step of the check may take `patience`. `acceptor`, which listens on `addresses`, and `scheduler` must outlive
-  // it.
-  ServingCheck(std::vector<ListenAddress> addresses, const Acceptor& acceptor, Scheduler& scheduler,
-               std::chrono::milliseconds patience);
-
-  // Connects to every address and waits until the acceptor has noticed, then waits for a turn at the scheduler. Returns
-  // OK early once `stop` is requested. Errors: UNAVAILABLE that says what does not work.
-  absl::Status Run(const std::stop_token& stop) const;
-
- private:
-  absl::Status CheckAddress(const ListenAddress& address, const std::stop_token& stop) const;
-  absl::Status CheckScheduler(const std::stop_token& stop) const;
-
-  const std::vector<ListenAddress> addresses_;
-  const Acceptor& acceptor_;
-  Scheduler& scheduler_;
-  const std::chrono::milliseconds patience_;
-};
+// Connects to every address and waits until the acceptor, which listens there, has noticed; then waits for a turn at the
+// scheduler. Each step may take `patience`. Returns OK early once `stop` is requested.
+// Errors: UNAVAILABLE that says what does not work.
+absl::Status CheckServing(const std::vector<ListenAddress>& addresses, const Acceptor& acceptor, Scheduler& scheduler,
+                          std::chrono::milliseconds patience, const std::stop_token& stop);
 
 }  // namespace ricochet::server
 

@@ -23,10 +23,21 @@ class ConnectionCounts {
   explicit ConnectionCounts(const ConnectionLimits& limits) : limits_(limits) {}
 
   // Counts a connection of `peer` if the limits allow it.
-  Decision Add(const std::string& peer);
+  Decision Add(const std::string& peer) {
+    if (in_all_ >= limits_.in_all) return Decision::kTooMany;
+    const auto found = per_peer_.find(peer);
+    if (found != per_peer_.end() && found->second >= limits_.per_peer) return Decision::kTooManyOfPeer;
+    ++in_all_;
+    ++per_peer_[peer];
+    return Decision::kAccepted;
+  }
 
   // Forgets a connection that Add has accepted.
-  void Remove(const std::string& peer);
+  void Remove(const std::string& peer) {
+    const auto found = per_peer_.find(peer);
+    --in_all_;
+    if (--found->second == 0) per_peer_.erase(found);
+  }
 
   int in_all() const { return in_all_; }
   // The peers that have a connection.

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -60,6 +61,14 @@ int PortOf(int socket) {
   if (getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0) return 0;
   return address.ss_family == AF_INET6 ? ntohs(reinterpret_cast<const sockaddr_in6&>(address).sin6_port)
                                        : ntohs(reinterpret_cast<const sockaddr_in&>(address).sin_port);
+}
+
+// The numbers of an address: a name may mean another one later.
+std::string HostOf(const addrinfo& address) {
+  std::array<char, NI_MAXHOST> host = {};
+  const int error =
+      getnameinfo(address.ai_addr, address.ai_addrlen, host.data(), host.size(), nullptr, 0, NI_NUMERICHOST);
+  return error == 0 ? host.data() : "";
 }
 
 void SetPort(addrinfo& address, int port) {
@@ -118,6 +127,7 @@ absl::StatusOr<std::vector<Listener>> Listener::Open(const ListenAddress& addres
     Descriptor socket = BindTcp(*one);
     if (!socket.is_open() && IsMissingHere(errno) && (one->ai_next != nullptr || !listeners.empty())) continue;
     if (!socket.is_open()) return CannotListen(address, ErrorText());
+    bound.host = HostOf(*one);
     bound.port = PortOf(socket.number());
     listeners.push_back(Listener(std::move(socket), bound));
   }

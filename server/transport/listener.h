@@ -28,7 +28,7 @@ class Listener {
   ~Listener();
 
   int socket() const { return socket_.number(); }
-  // The address with the port that the system chose.
+  // The address of the socket in numbers, with the port that the system chose.
   const ListenAddress& address() const { return address_; }
 
   // Takes the next connection, which does not block. Returns no descriptor if there is none or at an error; errno then

@@ -188,7 +188,9 @@ void CheckRow(const Point& point, const Rows& rows, size_t row, const std::vecto
   const std::map<std::string, double> numbers = NumbersOf(outcome);
   const bool has_all =
       std::all_of(names.begin(), names.end(), [&](const auto& name) { return numbers.contains(name); });
-  const bool is_told = status == (outcome.admissible ? RowStatus::kOk : RowStatus::kInadmissible);
+  const bool is_told = status == (!outcome.admissible                              ? RowStatus::kInadmissible
+                                  : outcome.termination != Termination::kConverged ? RowStatus::kNotConverged
+                                                                                   : RowStatus::kOk);
   // A row that lacks a number may say so.
   if (!is_told && (has_all || !has_numbers)) Fail(absl::StrCat("a row has status ", status, " and Solve an answer"));
   if (outcome.regime != rows.regimes[row]) Fail("a row has another regime than Solve");

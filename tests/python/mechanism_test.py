@@ -176,6 +176,47 @@ class Batches(Case):
             np.testing.assert_allclose(after[0], [0.85, 0, 0.5], rtol=1e-14)
             self.assertTrue(np.isnan(after[1]).all())
 
+        after, impulse, _ = ricochet.at_contact(
+            np.eye(3), np.eye(3), [1, 0, -1], [0, 0, 1], friction=[0.1, 0.2], newton=[0.5, 0.25])
+        np.testing.assert_allclose(after, [[0.85, 0, 0.5], [0.75, 0, 0.25]], rtol=1e-14)
+        np.testing.assert_allclose(impulse, [[-0.15, 0, 1.5], [-0.25, 0, 1.25]], rtol=1e-14)
+        self.refused(lambda: ricochet.at_contact([np.eye(3)] * 2, np.eye(3), [1, 0, -1], [0, 0, 1],
+                                                 friction=[0.1, 0.2, 0.3], newton=0.5), "friction")
+
+    def test_a_state_without_a_normal_is_nan_as_well(self):
+        with self.assertWarnsRegex(ricochet.InvalidRows, "1 of 2; .* row 1: normal has no direction"):
+            after, _, _ = ricochet.at_contact(
+                np.eye(3), np.eye(3), [1, 0, -1], [[0, 0, 1], [0, 0, 0]], friction=0.1, newton=0.5)
+        np.testing.assert_array_equal(np.isnan(after).any(axis=1), [False, True])
+
+    def test_a_mass_matrix_is_symmetric_but_for_rounding(self):
+        turn = np.linalg.qr(np.random.default_rng(3).normal(size=(50, 4, 4)))[0]
+        mass = turn.transpose(0, 2, 1) @ np.diag([1.0, 2.0, 3.0, 4.0]) @ turn
+        self.assertFalse(np.array_equal(mass, mass.transpose(0, 2, 1)))
+        jacobian = np.eye(3, 4)
+        given = {"friction": 0.1, "newton": 0.5}
+        after, _, _ = ricochet.at_contact(mass, jacobian, [1, 0, -1, 0], [0, 0, 1], **given)
+        mean = 0.5 * (mass + mass.transpose(0, 2, 1))
+        np.testing.assert_array_equal(after, ricochet.at_contact(mean, jacobian, [1, 0, -1, 0], [0, 0, 1], **given)[0])
+        mean[0, 1, 0] += 1e-9
+        self.refused(lambda: ricochet.at_contact(mean[0], jacobian, [1, 0, -1, 0], [0, 0, 1], **given),
+                     "mechanism.mass_matrix[4]")
+
+    def test_a_planar_mechanism_that_rolls_is_the_same_in_any_frame(self):
+        """Its slip is 0 but for rounding, and Wtt has rank one."""
+        random = np.random.default_rng(4)
+        planar = np.array([[1.0, 0.0, 0.2], [0.0, 1.0, -0.4]])
+        mass, rates = np.diag([1.0, 1.0, 0.08]), np.array([0.3, -1.1, -1.5])
+        turns = random.uniform(0, 2 * np.pi, 500)
+        along = np.stack([np.cos(turns), np.sin(turns), np.zeros(500)], axis=-1)
+        jacobian = along[:, :, None] * planar[0] + np.array([0, 0, 1.0])[:, None] * planar[1]
+        after, _, answer = ricochet.at_contact(mass, jacobian, rates, [0, 0, 1], friction=0.2, energetic=0.5)
+        right = ricochet.solve({
+            "mechanism": {"mass_matrix": mass, "jacobian": planar, "rates": rates},
+            "friction": {"kinetic_coefficient": 0.2}, "restitution": {"energetic": 0.5}}).rates_after
+        np.testing.assert_allclose(after, np.tile(right, (500, 1)), atol=1e-14)
+        self.assertEqual(answer.codes["status"].counts(), {"OK": 500})
+
     def test_a_state_that_overflows_is_nan_as_well(self):
         jacobian = np.array([np.eye(3), 1e160 * np.eye(3)])
         with self.assertWarnsRegex(ricochet.InvalidRows, "1 of 2; .* row 1: mechanism is out of range: "):

@@ -208,6 +208,13 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                                  {.flags = {"--metrics", "[::1]:9464"}},
                                  [](Options&
                                         o) { o.metrics = ListenAddress{.host = "::1", .port = 9464, .path = ""}; }},
+                             GoodCase{"OpenMetricsBesideTokens",
+                                      {.flags = {"--metrics", "0.0.0.0:1", "--insecure", "--tokens", "tok"}},
+                                      [](Options& o) {
+                                        o.metrics = ListenAddress{.host = "0.0.0.0", .port = 1, .path = ""};
+                                        o.insecure = true;
+                                        o.tokens = "tok";
+                                      }},
                              GoodCase{"Drain",
                                       {.flags = {"--drain-grace", "0", "--drain-timeout", "0.25"}},
                                       [](Options& o) {
@@ -263,6 +270,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadCase{"NoPort", {.flags = {"--listen", "localhost"}}, {"--listen = localhost: must be HOST:PORT"}},
         BadCase{"PortTooLarge", {.flags = {"--listen", "localhost:65536"}}, {"--listen = localhost:65536: must"}},
+        BadCase{"MinusZeroAsPort", {.flags = {"--listen=localhost:-0"}}, {"--listen = localhost:-0: must"}},
         BadCase{"NegativePort", {.flags = {"--listen=localhost:-1"}}, {"--listen = localhost:-1: must"}},
         BadCase{"NoHost", {.flags = {"--listen", ":1"}}, {"--listen = :1: must be HOST:PORT"}},
         BadCase{"BareIpv6", {.flags = {"--listen", "::1:1"}}, {"--listen = ::1:1: must", "in brackets"}},
@@ -327,6 +335,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{
             "MetricsOnAUnixSocket", {.flags = {"--metrics", "unix:/run/m"}}, {"--metrics = unix:/run/m: must be HOST"}},
         BadCase{"OpenMetrics", {.flags = {"--metrics", "0.0.0.0:9464"}}, {"--metrics = 0.0.0.0:9464: must be a loop"}},
+        BadCase{"OpenMetricsBesideTls",
+                {.flags = {"--metrics", "[::]:9464", "--tls-cert", "c.pem", "--tls-key", "k.pem"}},
+                {"--metrics = [::]:9464: must be a loop"}},
         BadCase{"EmptyLogFile", {.flags = {"--log-file", ""}}, {"--log-file = : must not be empty"}},
         BadCase{"LogCalls", {.flags = {"--log-calls", "some"}}, {"--log-calls = some: must be all, errors, slow:"}},
         BadCase{"EmptyPortFile", {.flags = {"--port-file", ""}}, {"--port-file = : must not be empty"}},

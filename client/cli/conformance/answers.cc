@@ -109,6 +109,7 @@ absl::StatusOr<SimulatorAnswers> ReadJson(const std::string& text, const std::st
   if (!simulator.ok()) return simulator.status();
   const absl::StatusOr<std::string> law = Text(json, "law", name);
   if (!law.ok()) return law.status();
+  if (absl::Status status = CheckConformanceLaw(*law, absl::StrCat(name, ".law")); !status.ok()) return status;
   all.simulator = *simulator;
   const Json answers = json.value("answers", Json());
   if (!answers.is_array()) return absl::InvalidArgumentError(absl::StrCat(name, ".answers: must be a list"));

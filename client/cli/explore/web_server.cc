@@ -118,7 +118,10 @@ WebServer::~WebServer() {
 // Only a name can be bound to another address than its owner's, so that every address is good beyond loopback, where
 // this server may have several.
 bool WebServer::IsOwn(absl::string_view authority) const {
-  if (!absl::EndsWith(authority, absl::StrCat(":", port_))) return false;
+  // Clients leave out the port 80, which http:// stands for.
+  constexpr int kDefaultPort = 80;
+  const bool has_port = authority.find(':', authority.find(']') + 1) != authority.npos;
+  if (has_port ? !absl::EndsWith(authority, absl::StrCat(":", port_)) : port_ != kDefaultPort) return false;
   if (IsLoopbackAddress(authority)) return true;
   const bool is_address = authority.front() == '[' || authority.find_first_not_of("0123456789.:") == authority.npos;
   return is_address && !IsLoopbackAddress(host_);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "absl/algorithm/container.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
 #include "client/cli/input/scene_input.h"
@@ -20,6 +22,7 @@
 #include "core/base/nearest.h"
 #include "core/rows/column.h"
 #include "core/scene/field.h"
+#include "ricochet/error.h"
 
 namespace ricochet::cli {
 namespace {
@@ -212,6 +215,30 @@ absl::StatusOr<FitRequest> ReadFit(const FitDataOptions& options, const Scene& s
   if (absl::Status status = ReadUnknowns(options, scene, request); !status.ok()) return status;
   if (absl::Status status = ReadSigmas(options, request); !status.ok()) return status;
   return request;
+}
+
+absl::Status InTheTable(const FitRequest& request, const absl::Status& status) {
+  std::vector<Violation> violations = ViolationsOf(status);
+  static const std::regex pattern(R"((inputs|measured)\[(\d+)\]\.(values|sigma)(?:\[(\d+)\])?)");
+  bool is_changed = false;
+  for (Violation& violation : violations) {
+    const std::string field = violation.field;
+    std::smatch parts;
+    if (!std::regex_match(field, parts, pattern)) continue;
+    const bool is_input = parts[1] == "inputs", is_sigma = parts[3] == "sigma";
+    size_t place = 0;
+    const bool is_known = absl::SimpleAtoi(parts[2].str(), &place) &&
+                          place < (is_input ? request.inputs.size() : request.measured.size());
+    if (!is_known) continue;
+    const std::string& path = is_input ? request.inputs[place].path : request.measured[place].path;
+    const bool is_option = is_sigma && request.measured[place].sigma.size() == 1;
+    is_changed = true;
+    violation.field = is_option
+                          ? absl::StrCat("--sigma ", path)
+                          : absl::StrCat("--data, ", parts[4].matched ? absl::StrCat("row ", parts[4].str(), ", ") : "",
+                                         path, is_sigma ? kSigmaEnding : "");
+  }
+  return is_changed ? InvalidRequest(violations) : status;
 }
 
 }  // namespace ricochet::cli

@@ -27,6 +27,10 @@ struct FitDataOptions {
 // Errors: INVALID_ARGUMENT that names the option, or the column and the line.
 absl::StatusOr<FitRequest> ReadFit(const FitDataOptions& options, const Scene& scene);
 
+// Returns the error of a request that ReadFit has made, with the rows and columns of the table and the options in place
+// of the fields that have them.
+absl::Status InTheTable(const FitRequest& request, const absl::Status& status);
+
 }  // namespace ricochet::cli
 
 #endif  // RICOCHET_CLIENT_CLI_INPUT_FIT_DATA_H_

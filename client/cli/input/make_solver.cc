@@ -6,22 +6,6 @@
 #include "ricochet/client.h"
 
 namespace ricochet::cli {
-namespace {
-
-absl::Status CheckThreads(const ConnectionInput& connection, std::optional<int> threads) {
-  if (!threads.has_value()) return absl::OkStatus();
-  return InputError(
-      "--threads", absl::StrCat(*threads),
-      absl::StrCat("not be given with the server ", connection.server, ", which computes with threads of its own"));
-}
-
-absl::StatusOr<std::unique_ptr<Solver>> Connect(const ClientOptions& options) {
-  absl::StatusOr<Client> client = Client::Connect(options);
-  if (!client.ok()) return client.status();
-  return std::make_unique<Client>(*std::move(client));
-}
-
-}  // namespace
 
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {
   const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
@@ -31,30 +15,26 @@ absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {
 }
 
 absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads,
-                                                   const Limits& limits) {
+                                                   const Limits& limits, bool fan_out) {
   const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
   if (!connection.ok()) return connection.status();
-  if (connection->server.empty()) {
-    return std::make_unique<LocalSolver>(limits, threads.value_or(AvailableCores()));
+  const std::string& server = connection->server;
+  if (fan_out && server.empty()) return absl::InvalidArgumentError("--fan-out needs --server A,B,...");
+  if (server.empty()) return std::make_unique<LocalSolver>(limits, threads.value_or(AvailableCores()));
+  if (fan_out && !absl::StrContains(server, ',')) {
+    return InputError("--server", server, "name at least two servers, separated by commas, for --fan-out");
   }
-  if (absl::Status status = CheckThreads(*connection, threads); !status.ok()) return status;
-  const absl::StatusOr<ClientOptions> client = ClientOptionsOf(*connection);
-  if (!client.ok()) return client.status();
-  return Connect(*client);
-}
-
-absl::StatusOr<std::unique_ptr<Solver>> MakeFanOut(const CommonOptions& options, std::optional<int> threads) {
-  const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
-  if (!connection.ok()) return connection.status();
-  if (connection->server.empty()) return absl::InvalidArgumentError("--fan-out needs --server A,B,...");
-  if (!absl::StrContains(connection->server, ',')) {
-    return InputError("--server", connection->server, "name at least two servers, separated by commas, for --fan-out");
+  if (threads.has_value()) {
+    return InputError(
+        "--threads", absl::StrCat(*threads),
+        absl::StrCat("not be given with the server ", server, ", which computes with threads of its own"));
   }
-  if (absl::Status status = CheckThreads(*connection, threads); !status.ok()) return status;
-  absl::StatusOr<ClientOptions> client = ClientOptionsOf(*connection);
+  absl::StatusOr<ClientOptions> client_options = ClientOptionsOf(*connection);
+  if (!client_options.ok()) return client_options.status();
+  if (fan_out) client_options->fan_out.emplace();
+  absl::StatusOr<Client> client = Client::Connect(*client_options);
   if (!client.ok()) return client.status();
-  client->fan_out.emplace();
-  return Connect(*client);
+  return std::make_unique<Client>(*std::move(client));
 }
 
 }  // namespace ricochet::cli

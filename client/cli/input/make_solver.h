@@ -17,13 +17,10 @@ namespace ricochet::cli {
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options);
 
 // Returns a LocalSolver, or a Client if a server is given. `threads` are those of the LocalSolver, >= 1; absent: one
-// for each core; `limits` are its, too. Errors: INVALID_ARGUMENT, also for threads beside a server.
+// for each core; `limits` are its, too. With `fan_out` all servers of --server compute a sweep together.
+// Errors: INVALID_ARGUMENT, also for threads beside a server, and for less than two servers with `fan_out`.
 absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads = {},
-                                                   const Limits& limits = Limits::None());
-
-// Returns a Client whose sweeps all servers of --server compute together. Errors: INVALID_ARGUMENT, also for less than
-// two servers and for threads.
-absl::StatusOr<std::unique_ptr<Solver>> MakeFanOut(const CommonOptions& options, std::optional<int> threads);
+                                                   const Limits& limits = Limits::None(), bool fan_out = false);
 
 }  // namespace ricochet::cli
 

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <iterator>
 #include <sstream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,8 @@
 #include "client/cli/input/mechanism_file.h"
 #include "client/cli/io/csv_table.h"
 #include "client/cli/text/number_input.h"
+#include "core/scene/field.h"
 #include "core/scene/numbers.h"
-#include "proto/text/any_scene.h"
 #include "proto/text/message_text.h"
 #include "proto/wire/multi_contact.h"
 #include "proto/wire/scene.h"
@@ -49,50 +50,27 @@ constexpr SceneFlag kSceneFlags[] = {
 constexpr double kDefaultInertia = 1.0;
 constexpr double kDefaultOmega = -1.0;
 
-// Reads numbers and keeps every violation, so that all of them are reported at once.
-class NumberReader {
- public:
-  void Read(const std::optional<std::string>& text, const char* flag, double& value) {
-    if (!text.has_value()) return;
-    const absl::StatusOr<double> number = ParseNumber(*text, flag);
-    if (number.ok()) {
-      value = *number;
-    } else {
-      for (Violation& violation : ViolationsOf(number.status())) violations_.push_back(std::move(violation));
+// Sets the numbers of the scene that flags state. All flags that are no numbers are reported at once.
+absl::Status SetByFlags(const SceneOptions& options, Scene& scene) {
+  std::vector<Violation> violations;
+  for (const SceneFlag& flag : kSceneFlags) {
+    const std::optional<std::string>& text = options.*flag.value;
+    if (!text.has_value()) continue;
+    const absl::StatusOr<double> number = ParseNumber(*text, flag.name);
+    if (!number.ok()) {
+      for (Violation& violation : ViolationsOf(number.status())) violations.push_back(std::move(violation));
+      continue;
     }
+    const absl::StatusOr<Field> field = ResolveField(flag.field, scene);
+    if (!field.ok()) return field.status();
+    field->Set(*number);  // The solver says which rule of the scene it breaks.
   }
-  absl::Status status() const { return violations_.empty() ? absl::OkStatus() : InvalidRequest(violations_); }
-
- private:
-  std::vector<Violation> violations_;
-};
-
-// Friction and restitution by flags; `system` has its flags read.
-Scene SceneFromFlags(const SceneOptions& options, System system, NumberReader& reader) {
-  Scene scene = {.system = std::move(system)};
-  reader.Read(options.mu, "--mu", scene.friction.kinetic_coefficient);
-  if (options.mu_static.has_value()) {
-    reader.Read(options.mu_static, "--mu-static", scene.friction.static_coefficient.emplace());
-  }
-  double coefficient = 0.0;
-  reader.Read(options.newton, "--newton", coefficient);
-  reader.Read(options.poisson, "--poisson", coefficient);
-  reader.Read(options.energetic, "--energetic", coefficient);
-  if (options.newton.has_value()) scene.restitution = NewtonCoefficient{coefficient};
-  if (options.poisson.has_value()) scene.restitution = PoissonCoefficient{coefficient};
-  if (options.energetic.has_value()) scene.restitution = EnergeticCoefficient{coefficient};
-  return scene;
+  return violations.empty() ? absl::OkStatus() : InvalidRequest(violations);
 }
 
 absl::StatusOr<Scene> PendulumFromFlags(const SceneOptions& options) {
-  NumberReader reader;
-  Pendulum pendulum{.inertia_kg_m2 = kDefaultInertia, .omega_minus_rad_s = kDefaultOmega};
-  reader.Read(options.a, "--a", pendulum.a_m);
-  reader.Read(options.b, "--b", pendulum.b_m);
-  reader.Read(options.inertia, "--inertia", pendulum.inertia_kg_m2);
-  reader.Read(options.omega, "--omega", pendulum.omega_minus_rad_s);
-  Scene scene = SceneFromFlags(options, pendulum, reader);
-  if (absl::Status status = reader.status(); !status.ok()) return status;
+  Scene scene = {.system = Pendulum{.inertia_kg_m2 = kDefaultInertia, .omega_minus_rad_s = kDefaultOmega}};
+  if (absl::Status status = SetByFlags(options, scene); !status.ok()) return status;
   return scene;
 }
 
@@ -109,9 +87,8 @@ absl::StatusOr<Scene> MechanismFromFlags(const SceneOptions& options) {
     mechanism->kept_coordinates.push_back(static_cast<int32_t>(*coordinate));
   }
   mechanism->composite = options.composite;
-  NumberReader reader;
-  Scene scene = SceneFromFlags(options, *std::move(mechanism), reader);
-  if (absl::Status status = reader.status(); !status.ok()) return status;
+  Scene scene = {.system = *std::move(mechanism)};
+  if (absl::Status status = SetByFlags(options, scene); !status.ok()) return status;
   return scene;
 }
 
@@ -232,7 +209,8 @@ absl::Status ReadAnyScene(const SceneOptions& options, std::variant<Scene, Multi
 
 static absl::StatusOr<std::string> ReadBytes(const std::string& path) {
   if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
-  if (std::filesystem::is_directory(path)) {
+  std::error_code unknown;  // What cannot be looked at cannot be opened either.
+  if (std::filesystem::is_directory(path, unknown)) {
     return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": Is a directory"));
   }
   std::ifstream file(path, std::ios::binary);

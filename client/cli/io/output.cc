@@ -57,7 +57,7 @@ absl::StatusOr<std::string> FileToWrite(const std::string& path) {
   for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, failure); ++i) {
     target = target.parent_path() / std::filesystem::read_symlink(target, failure);
   }
-  target = std::filesystem::weakly_canonical(std::filesystem::absolute(target), failure);
+  target = std::filesystem::weakly_canonical(std::filesystem::absolute(target, failure), failure);
   if (failure || !target.has_filename() || std::filesystem::is_directory(target, failure)) {
     return absl::FailedPreconditionError(absl::StrCat("cannot write ", path, ": not a file"));
   }

@@ -5,6 +5,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/io/output.h"
 
 namespace ricochet::cli {
@@ -100,6 +101,17 @@ absl::StatusOr<Format> ChooseFormat(absl::Span<const Format> formats, const std:
   if (path.empty() || (!SaysAKind(ending) && IsDevice(path))) return formats.front();
   return absl::InvalidArgumentError(absl::StrCat("-o ", path, ": must end in ", EndingsOf(formats),
                                                  SaysAKind(ending) ? "" : ", or --format must say what it is"));
+}
+
+absl::Status CheckOneTable(Format format, std::initializer_list<TableOption> options) {
+  std::vector<std::string> given;
+  for (const TableOption& option : options) {
+    if (option.is_given) given.emplace_back(option.name);
+  }
+  if (format != Format::kCsv || given.size() < 2) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(absl::StrJoin(given, ", "),
+                                                 " cannot be combined as csv, which is one table: give one of them, or "
+                                                 "--format json, which has all"));
 }
 
 }  // namespace ricochet::cli

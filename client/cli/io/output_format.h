@@ -3,9 +3,11 @@
 #ifndef RICOCHET_CLIENT_CLI_IO_OUTPUT_FORMAT_H_
 #define RICOCHET_CLIENT_CLI_IO_OUTPUT_FORMAT_H_
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
 
@@ -35,6 +37,17 @@ std::string JoinedEndings(const std::vector<std::string>& endings);
 // such as that of a picture or a page, and for one that says nothing if `named` does not either.
 absl::StatusOr<Format> ChooseFormat(absl::Span<const Format> formats, const std::string& named,
                                     const std::string& path);
+
+// CSV is one table, so that options which each ask for a table of their own exclude each other.
+
+// An option that changes which table an answer has, and whether it was given.
+struct TableOption {
+  const char* name;
+  bool is_given;
+};
+
+// Errors: INVALID_ARGUMENT that names the options, if the format is CSV and several are given.
+absl::Status CheckOneTable(Format format, std::initializer_list<TableOption> options);
 
 }  // namespace ricochet::cli
 

@@ -1,6 +1,7 @@
 #include "client/cli/plot/gnuplot.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -11,7 +12,9 @@
 #include <csignal>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "client/cli/io/output.h"
+#include "client/cli/terminal/interrupt.h"
 
 namespace ricochet::cli {
 namespace {
@@ -31,11 +34,16 @@ class Descriptor {
   int descriptor_;
 };
 
-// Reads from a pipe until its writers have closed it.
+// Reads from a pipe until its writers have closed it. Errors: CANCELLED after Ctrl-C.
 absl::StatusOr<std::string> ReadAll(int pipe) {
+  constexpr int kBetweenLooksMs = 50;
   std::string text;
   std::array<char, 1 << 16> buffer;
   while (true) {
+    pollfd ready = {.fd = pipe, .events = POLLIN, .revents = 0};
+    const int found = poll(&ready, 1, kBetweenLooksMs);
+    if (Interrupt::Happened()) return absl::CancelledError("interrupted");
+    if (found == 0) continue;
     const ssize_t count = read(pipe, buffer.data(), buffer.size());
     if (count > 0) text.append(buffer.data(), static_cast<size_t>(count));
     if (count == 0) return text;
@@ -44,26 +52,18 @@ absl::StatusOr<std::string> ReadAll(int pipe) {
 }
 
 // The environment of this process with a UTF-8 locale: in others gnuplot warns of characters that it cannot write.
-class Utf8Environment {
- public:
-  Utf8Environment() {
-    for (char** variable = environ; *variable != nullptr; ++variable) {
-      const std::string text = *variable;
-      if (text.rfind("LC_", 0) != 0 && text.rfind("LANG=", 0) != 0) texts_.push_back(text);
-    }
-    texts_.emplace_back("LC_ALL=C.UTF-8");
-    for (std::string& text : texts_) pointers_.push_back(text.data());
-    pointers_.push_back(nullptr);
+std::vector<char*> Utf8Environment(std::string& locale) {
+  locale = "LC_ALL=C.UTF-8";  // It goes before all other variables of the locale.
+  std::vector<char*> variables = {locale.data()};
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!absl::StartsWith(*variable, "LC_ALL=")) variables.push_back(*variable);
   }
-  char* const* get() const { return pointers_.data(); }
+  variables.push_back(nullptr);
+  return variables;
+}
 
- private:
-  std::vector<std::string> texts_;
-  std::vector<char*> pointers_;
-};
-
-// Starts gnuplot with these as its standard input and output, and with no signal blocked or ignored. Returns 0 or an
-// errno.
+// Starts gnuplot with these as its standard input and output, and with no signal blocked or ignored. It gets a process
+// group of its own: at Ctrl-C it would read on behind its script. Returns 0 or an errno.
 int SpawnGnuplot(int input, int output, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -73,15 +73,17 @@ int SpawnGnuplot(int input, int output, pid_t& child) {
   posix_spawnattr_init(&attributes);
   sigset_t none;
   sigemptyset(&none);
-  sigset_t broken_pipe = none;
-  sigaddset(&broken_pipe, SIGPIPE);
+  sigset_t ignored = none;  // By main.
+  sigaddset(&ignored, SIGPIPE);
+  sigaddset(&ignored, SIGXFSZ);
   posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &broken_pipe);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setsigdefault(&attributes, &ignored);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   std::string name = "gnuplot";
   char* const arguments[] = {name.data(), nullptr};
-  const Utf8Environment environment;
-  const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environment.get());
+  std::string locale;
+  const std::vector<char*> environment = Utf8Environment(locale);
+  const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environment.data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return error;
@@ -106,10 +108,11 @@ absl::StatusOr<std::string> RunGnuplot(const std::string& script) {
   }
   if (error != 0) return absl::ErrnoToStatus(error, "cannot start gnuplot");
   absl::StatusOr<std::string> picture = ReadAll(output.get());
+  if (!picture.ok()) kill(child, SIGKILL);
   int result = 0;
   while (waitpid(child, &result, 0) < 0 && errno == EINTR) {
   }
-  if (WIFEXITED(result) && WEXITSTATUS(result) == 0) return picture;
+  if (!picture.ok() || (WIFEXITED(result) && WEXITSTATUS(result) == 0)) return picture;
   return absl::InternalError("gnuplot failed");
 }
 

@@ -10,7 +10,6 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
-#include "client/cli/plot/inline_svg.h"
 #include "client/cli/report/cost_picture.h"
 #include "client/cli/report/cost_report.h"
 #include "client/cli/report/html_page.h"

@@ -1,5 +1,3 @@
-#include "client/cli/report/fit_plot.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "client/cli/report/fit_report.h"
 #include "client/cli/text/label.h"
 #include "client/cli/text/table.h"
 

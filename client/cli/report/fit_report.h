@@ -1,10 +1,11 @@
-// The report of a fit as text and CSV.
+// The report of a fit as text, CSV and a picture.
 
 #ifndef RICOCHET_CLIENT_CLI_REPORT_FIT_REPORT_H_
 #define RICOCHET_CLIENT_CLI_REPORT_FIT_REPORT_H_
 
 #include <string>
 
+#include "client/cli/plot/plot.h"
 #include "ricochet/fit.h"
 
 namespace ricochet::cli {
@@ -20,6 +21,10 @@ std::string FitCsv(const FitResponse& response);
 
 // A row for each row of the data: its regime, and predicted number and residual of each measured column.
 std::string FitRowsCsv(const FitRequest& request, const FitResponse& response);
+
+// One panel for each measured column, one for all residuals, one for each unknown, and one for the region if it was
+// asked for. Data stand over the first input that differs by row, else over the number of the row.
+Plot FitPlot(const FitRequest& request, const FitResponse& response);
 
 }  // namespace ricochet::cli
 

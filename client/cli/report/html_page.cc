@@ -1,10 +1,17 @@
 #include "client/cli/report/html_page.h"
 
+#include <regex>
+
 #include "absl/strings/str_cat.h"
-#include "client/cli/plot/inline_svg.h"
+#include "absl/strings/str_replace.h"
 
 namespace ricochet::cli {
 namespace {
+
+// Returns `text` with the characters that HTML reserves as entities.
+std::string HtmlText(const std::string& text) {
+  return absl::StrReplaceAll(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}});
+}
 
 // In the dark the pictures are inverted and their hues turned back, so that the colours of the lines stay.
 constexpr char kStyle[] = R"(
@@ -85,6 +92,23 @@ std::string HtmlPage(const std::string& title, const std::string& body) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n",
       HtmlElement("title", title), "\n<style>", kStyle, "</style>\n</head>\n<body>\n<main>\n", body,
       "</main>\n</body>\n</html>\n");
+}
+
+std::string InlineSvg(const std::string& file, const std::string& prefix, const std::string& title) {
+  const size_t start = file.find("<svg");
+  const size_t end = file.find('>', start);
+  if (start == std::string::npos || end == std::string::npos) return "";
+  static const std::regex view_box_pattern(R"(viewBox="[^"]*")");
+  std::smatch view_box;
+  const std::string head = file.substr(start, end - start);
+  std::regex_search(head, view_box, view_box_pattern);
+  static const std::regex gnuplot_title(R"(<title>Gnuplot</title>|<desc>[^<]*</desc>)");
+  const std::string body = std::regex_replace(file.substr(end + 1), gnuplot_title, "");
+  return absl::StrCat("<svg ", view_box.str(), " role=\"img\"><title>", HtmlText(title), "</title>",
+                      absl::StrReplaceAll(body, {{" id='", absl::StrCat(" id='", prefix)},
+                                                 {" id=\"", absl::StrCat(" id=\"", prefix)},
+                                                 {"xlink:href='#", absl::StrCat("href='#", prefix)},
+                                                 {"url(#", absl::StrCat("url(#", prefix)}}));
 }
 
 }  // namespace ricochet::cli

@@ -1,4 +1,4 @@
-// HtmlPage: a page that needs nothing beside it, in the one style of all pages.
+// HtmlPage: a page that needs nothing beside it, in the one style of all pages, with its pictures.
 
 #ifndef RICOCHET_CLIENT_CLI_REPORT_HTML_PAGE_H_
 #define RICOCHET_CLIENT_CLI_REPORT_HTML_PAGE_H_
@@ -17,6 +17,10 @@ std::string HtmlTable(const std::vector<std::vector<std::string>>& rows, const s
 
 // Returns the whole page with `body` as its main part.
 std::string HtmlPage(const std::string& title, const std::string& body);
+
+// Returns the <svg> element of the SVG file `file`. It names no address, its ids start with `prefix`, it takes its size
+// from the page, and a reader that cannot see it is told `title`.
+std::string InlineSvg(const std::string& file, const std::string& prefix, const std::string& title);
 
 }  // namespace ricochet::cli
 

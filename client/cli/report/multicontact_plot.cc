@@ -1,5 +1,3 @@
-#include "client/cli/report/multicontact_plot.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -189,65 +189,55 @@ void AddNumbers(const std::vector<std::string>& names, const std::string& ending
   }
 }
 
-// The columns of all rows: those of an outcome, and the values of the outputs.
-class CsvTable {
- public:
-  CsvTable(const MultiContactRequest& request, const MultiContactResponse& response) {
-    for (size_t state = 0; state < response.answers.size(); ++state) AddAnswer(request, response.answers[state], state);
+// Adds a row with the columns of an outcome and the values of the outputs. `asked` are the values of the functions that
+// the request asks for.
+void AddOutcome(const MultiContactRequest& request, size_t state, const std::string& name,
+                std::optional<double> stiffness, const AttainedOutcome& outcome, const std::vector<double>& asked,
+                std::vector<CsvRow>& rows) {
+  CsvRow& row = rows.emplace_back();
+  row.Integer("state", static_cast<int64_t>(state));
+  row.Quoted("outcome", name);
+  row.Number("relative_stiffness", stiffness);
+  const bool is_outcome = outcome.end != MultiContactEnd::kUnspecified;
+  row.Words("end", is_outcome ? EnumName(outcome.end) : "");
+  row.Integer("events", is_outcome ? std::optional(outcome.events) : std::nullopt);
+  row.Words("error_is_proved", !is_outcome ? "" : outcome.error_is_proved ? "true" : "false");
+  std::vector<double> values = outcome.contact_velocity_m_s, errors = outcome.contact_velocity_error_m_s;
+  values.insert(values.end(), outcome.velocity.begin(), outcome.velocity.end());
+  errors.insert(errors.end(), outcome.velocity_error.begin(), outcome.velocity_error.end());
+  const std::vector<std::string> names = OutputNames(request, outcome);
+  AddNumbers(names, "", values, row);
+  AddNumbers(names, ".error", errors, row);
+  std::vector<std::string> impulses(names.begin(),
+                                    names.begin() + static_cast<std::ptrdiff_t>(outcome.contact_velocity_m_s.size()));
+  AddNumbers(impulses, ".impulse_n_s", outcome.impulse_n_s, row);
+  row.Number("energy_change_j",
+             is_outcome && !outcome.contacts.empty() ? std::optional(outcome.energy_change_j) : std::nullopt);
+  std::vector<std::string> functions;
+  for (const LinearOutput& output : request.outputs) AppendCsv(output.name, functions.emplace_back());
+  AddNumbers(functions, "", asked, row);
+}
+
+void AddAnswer(const MultiContactRequest& request, const MultiContactAnswer& answer, size_t state,
+               std::vector<CsvRow>& rows) {
+  const auto outcomes = OutcomesOf(answer);
+  for (const auto& [name, outcome] : outcomes) AddOutcome(request, state, name, std::nullopt, *outcome, {}, rows);
+  for (const StiffnessSample& sample : answer.stiffness_samples) {
+    AddOutcome(request, state, kSprings, sample.relative_stiffness, sample.outcome, {}, rows);
   }
-
-  std::string Text() const { return CsvOf(rows_); }
-
- private:
-  void AddAnswer(const MultiContactRequest& request, const MultiContactAnswer& answer, size_t state) {
-    const auto outcomes = OutcomesOf(answer);
-    for (const auto& [name, outcome] : outcomes) Add(request, state, name, std::nullopt, *outcome);
-    for (const StiffnessSample& sample : answer.stiffness_samples) {
-      Add(request, state, kSprings, sample.relative_stiffness, sample.outcome);
-    }
-    if (answer.possible.empty()) return;
-    AttainedOutcome lower, upper;
-    std::vector<double> asked_lower, asked_upper;
-    const size_t contacts = answer.contact_velocity_before_m_s.size();
-    for (size_t i = 0; i < answer.possible.size(); ++i) {
-      const PossibleRange& range = answer.possible[i];
-      const bool is_asked = i + request.outputs.size() >= answer.possible.size();
-      (is_asked ? asked_lower : i < contacts ? lower.contact_velocity_m_s : lower.velocity).push_back(range.lower);
-      (is_asked ? asked_upper : i < contacts ? upper.contact_velocity_m_s : upper.velocity).push_back(range.upper);
-    }
-    Add(request, state, "possible, lower", std::nullopt, lower, asked_lower);
-    Add(request, state, "possible, upper", std::nullopt, upper, asked_upper);
+  if (answer.possible.empty()) return;
+  AttainedOutcome lower, upper;
+  std::vector<double> asked_lower, asked_upper;
+  const size_t contacts = answer.contact_velocity_before_m_s.size();
+  for (size_t i = 0; i < answer.possible.size(); ++i) {
+    const PossibleRange& range = answer.possible[i];
+    const bool is_asked = i + request.outputs.size() >= answer.possible.size();
+    (is_asked ? asked_lower : i < contacts ? lower.contact_velocity_m_s : lower.velocity).push_back(range.lower);
+    (is_asked ? asked_upper : i < contacts ? upper.contact_velocity_m_s : upper.velocity).push_back(range.upper);
   }
-
-  // `asked` are the values of the functions that the request asks for.
-  void Add(const MultiContactRequest& request, size_t state, const std::string& name, std::optional<double> stiffness,
-           const AttainedOutcome& outcome, const std::vector<double>& asked = {}) {
-    CsvRow& row = rows_.emplace_back();
-    row.Integer("state", static_cast<int64_t>(state));
-    row.Quoted("outcome", name);
-    row.Number("relative_stiffness", stiffness);
-    const bool is_outcome = outcome.end != MultiContactEnd::kUnspecified;
-    row.Words("end", is_outcome ? EnumName(outcome.end) : "");
-    row.Integer("events", is_outcome ? std::optional(outcome.events) : std::nullopt);
-    row.Words("error_is_proved", !is_outcome ? "" : outcome.error_is_proved ? "true" : "false");
-    std::vector<double> values = outcome.contact_velocity_m_s, errors = outcome.contact_velocity_error_m_s;
-    values.insert(values.end(), outcome.velocity.begin(), outcome.velocity.end());
-    errors.insert(errors.end(), outcome.velocity_error.begin(), outcome.velocity_error.end());
-    const std::vector<std::string> names = OutputNames(request, outcome);
-    AddNumbers(names, "", values, row);
-    AddNumbers(names, ".error", errors, row);
-    std::vector<std::string> impulses(names.begin(),
-                                      names.begin() + static_cast<std::ptrdiff_t>(outcome.contact_velocity_m_s.size()));
-    AddNumbers(impulses, ".impulse_n_s", outcome.impulse_n_s, row);
-    row.Number("energy_change_j",
-               is_outcome && !outcome.contacts.empty() ? std::optional(outcome.energy_change_j) : std::nullopt);
-    std::vector<std::string> functions;
-    for (const LinearOutput& output : request.outputs) AppendCsv(output.name, functions.emplace_back());
-    AddNumbers(functions, "", asked, row);
-  }
-
-  std::vector<CsvRow> rows_;
-};
+  AddOutcome(request, state, "possible, lower", std::nullopt, lower, asked_lower, rows);
+  AddOutcome(request, state, "possible, upper", std::nullopt, upper, asked_upper, rows);
+}
 
 }  // namespace
 
@@ -279,7 +269,11 @@ std::string MultiContactText(const MultiContactRequest& request, const MultiCont
 }
 
 std::string MultiContactCsv(const MultiContactRequest& request, const MultiContactResponse& response) {
-  return CsvTable(request, response).Text();
+  std::vector<CsvRow> rows;
+  for (size_t state = 0; state < response.answers.size(); ++state) {
+    AddAnswer(request, response.answers[state], state, rows);
+  }
+  return CsvOf(rows);
 }
 
 }  // namespace ricochet::cli

@@ -1,4 +1,4 @@
-// Writes what several contacts at once can do as text and CSV.
+// Writes what several contacts at once can do as text, CSV and a picture.
 
 #ifndef RICOCHET_CLIENT_CLI_REPORT_MULTICONTACT_REPORT_H_
 #define RICOCHET_CLIENT_CLI_REPORT_MULTICONTACT_REPORT_H_
@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "client/cli/plot/plot.h"
 #include "ricochet/multi_contact.h"
 
 namespace ricochet::cli {
@@ -21,6 +22,10 @@ std::vector<std::string> OutputNames(const MultiContactRequest& request, const A
 
 // Returns "m/s", "rad/s" or nothing for an output.
 std::string UnitOfOutput(const std::string& name);
+
+// The strike of planar bodies, the outcomes of the first state as points on the bars of what is possible, and the
+// outcomes of springs over the stiffness, if a range of it was asked for.
+Plot MultiContactPlot(const MultiContactRequest& request, const MultiContactResponse& response);
 
 }  // namespace ricochet::cli
 

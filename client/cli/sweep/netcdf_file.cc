@@ -80,15 +80,11 @@ int ForEachBlock(const std::vector<size_t>& counts, size_t first, size_t count, 
   return NC_NOERR;
 }
 
-}  // namespace
-
-class NetcdfFile::Impl {
+class SweepFile final : public NetcdfFile {
  public:
-  Impl(SweepRequest request, AtomicFile file)
+  SweepFile(SweepRequest request, AtomicFile file)
       : request_(std::move(request)), file_(std::move(file)), cursor_(request_.grid) {}
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() {
+  ~SweepFile() override {
     // To abort a file that could not be written crashes in NetCDF 4.9; it is removed all the same.
     if (id_ >= 0 && !has_failed()) Netcdf().abort(id_);
   }
@@ -105,7 +101,7 @@ class NetcdfFile::Impl {
     return StatusOf(failure_);
   }
 
-  absl::Status Write(const SweepChunk& chunk) {
+  absl::Status Write(const SweepChunk& chunk) override {
     if (!has_engine_ && !chunk.engine.fingerprint.empty()) PutEngine(chunk.engine);
     const auto count = static_cast<size_t>(chunk.count);
     const auto first = static_cast<size_t>(chunk.first_index - request_.first_index);
@@ -125,7 +121,7 @@ class NetcdfFile::Impl {
     return StatusOf(failure_);
   }
 
-  absl::Status Commit() {
+  absl::Status Commit() override {
     Take(Netcdf().close(std::exchange(id_, -1)));
     return has_failed() ? StatusOf(failure_) : file_.Commit();
   }
@@ -292,11 +288,9 @@ class NetcdfFile::Impl {
   std::vector<int> columns_;
 };
 
-NetcdfFile::NetcdfFile(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-NetcdfFile::NetcdfFile(NetcdfFile&&) noexcept = default;
-NetcdfFile::~NetcdfFile() = default;
+}  // namespace
 
-absl::StatusOr<NetcdfFile> NetcdfFile::Create(const SweepRequest& request, const std::string& path) {
+absl::StatusOr<std::unique_ptr<NetcdfFile>> NetcdfFile::Create(const SweepRequest& request, const std::string& path) {
   if (path.empty() || IsDevice(path)) {
     return absl::InvalidArgumentError("NetCDF needs -o FILE: it cannot be written to standard output or a device");
   }
@@ -309,12 +303,9 @@ absl::StatusOr<NetcdfFile> NetcdfFile::Create(const SweepRequest& request, const
   SweepRequest written = request;
   written.end_index = checked->end;
   if (checked->first == 0 && checked->end == PointCount(checked->grid)) written.end_index.reset();
-  auto impl = std::make_unique<Impl>(std::move(written), *std::move(file));
-  if (absl::Status status = impl->Open(checked->end - checked->first); !status.ok()) return status;
-  return NetcdfFile(std::move(impl));
+  auto sweep = std::make_unique<SweepFile>(std::move(written), *std::move(file));
+  if (absl::Status status = sweep->Open(checked->end - checked->first); !status.ok()) return status;
+  return sweep;
 }
-
-absl::Status NetcdfFile::Write(const SweepChunk& chunk) { return impl_->Write(chunk); }
-absl::Status NetcdfFile::Commit() { return impl_->Commit(); }
 
 }  // namespace ricochet::cli

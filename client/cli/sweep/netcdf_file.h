@@ -23,20 +23,17 @@ class NetcdfFile {
  public:
   // Errors: UNIMPLEMENTED if this build has no NetCDF; INVALID_ARGUMENT for an empty path, which is standard output, a
   // device, or a wrong request; those of the system.
-  static absl::StatusOr<NetcdfFile> Create(const SweepRequest& request, const std::string& path);
+  static absl::StatusOr<std::unique_ptr<NetcdfFile>> Create(const SweepRequest& request, const std::string& path);
 
-  NetcdfFile(NetcdfFile&&) noexcept;
-  ~NetcdfFile();
+  NetcdfFile() = default;
+  NetcdfFile(const NetcdfFile&) = delete;
+  NetcdfFile& operator=(const NetcdfFile&) = delete;
+  virtual ~NetcdfFile() = default;
 
   // Writes the next chunk. Errors: those of the system.
-  absl::Status Write(const SweepChunk& chunk);
+  virtual absl::Status Write(const SweepChunk& chunk) = 0;
   // Call it once, after the last Write. Errors: those of the system.
-  absl::Status Commit();
-
- private:
-  class Impl;
-  explicit NetcdfFile(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  virtual absl::Status Commit() = 0;
 };
 
 }  // namespace ricochet::cli

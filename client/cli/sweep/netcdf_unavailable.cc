@@ -1,26 +1,16 @@
 // Stands in for netcdf_file.cc and netcdf_table.cc in a build without NetCDF.
 
-#include <utility>
-
 #include "client/cli/sweep/netcdf_file.h"
 #include "client/cli/sweep/sweep_file.h"
 
 namespace ricochet::cli {
 
-class NetcdfFile::Impl {};
-
-NetcdfFile::NetcdfFile(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-NetcdfFile::NetcdfFile(NetcdfFile&&) noexcept = default;
-NetcdfFile::~NetcdfFile() = default;
-
-absl::StatusOr<NetcdfFile> NetcdfFile::Create(const SweepRequest& /*request*/, const std::string& /*path*/) {
+absl::StatusOr<std::unique_ptr<NetcdfFile>> NetcdfFile::Create(const SweepRequest& /*request*/,
+                                                               const std::string& /*path*/) {
   return absl::UnimplementedError(
       "this build of ricochet cannot write NetCDF: choose csv, json or npy, or merge its shards with a build that was "
       "configured with -DRICOCHET_NETCDF=ON");
 }
-
-absl::Status NetcdfFile::Write(const SweepChunk& /*chunk*/) { return absl::OkStatus(); }
-absl::Status NetcdfFile::Commit() { return absl::OkStatus(); }
 
 absl::StatusOr<SweepTable> ReadSweepNetcdf(const std::string& /*path*/, const std::vector<std::string>& /*columns*/) {
   return absl::UnimplementedError(

@@ -1,4 +1,4 @@
-// Reads the NPY files that NpyWriter writes: one record for each point.
+// Reads the NPY files that MakeNpyWriter writes: one record for each point.
 
 #include <algorithm>
 #include <bit>

@@ -1,9 +1,10 @@
-#include "client/cli/sweep/npy_writer.h"
-
 #include <bit>
 #include <cstdint>
+#include <memory>
 
 #include "absl/strings/str_cat.h"
+#include "client/cli/sweep/sweep_writer.h"
+#include "client/cli/text/axis_cursor.h"
 
 namespace ricochet::cli {
 namespace {
@@ -37,22 +38,34 @@ std::string Header(const SweepRequest& request, int64_t points) {
   return bytes + text;
 }
 
+class NpyWriter {
+ public:
+  explicit NpyWriter(const SweepRequest& request)
+      : request_(std::make_shared<SweepRequest>(request)), cursor_(request_->grid) {}
+
+  absl::StatusOr<std::string> operator()(const SweepChunk& chunk) {
+    std::string bytes;
+    if (chunk.first_index == request_->first_index) bytes = Header(*request_, chunk.points_total);
+    for (int64_t i = 0; i < chunk.count; ++i) {
+      AppendBytes(chunk.first_index + i, bytes);
+      for (const double value : cursor_.At(chunk.first_index + i)) AppendBytes(value, bytes);
+      for (size_t c = 0; c < request_->columns.size(); ++c) {
+        AppendBytes(chunk.values[c * static_cast<size_t>(chunk.count) + static_cast<size_t>(i)], bytes);
+      }
+      if (!request_->with_regime) continue;
+      AppendBytes(static_cast<uint8_t>(chunk.regimes[static_cast<size_t>(i)]), bytes);
+      AppendBytes(static_cast<uint8_t>(chunk.statuses[static_cast<size_t>(i)]), bytes);
+    }
+    return bytes;
+  }
+
+ private:
+  std::shared_ptr<const SweepRequest> request_;  // Shared, because a writer is copied and the cursor points to it.
+  AxisCursor cursor_;
+};
+
 }  // namespace
 
-absl::StatusOr<std::string> NpyWriter::operator()(const SweepChunk& chunk) {
-  std::string bytes;
-  if (chunk.first_index == request_->first_index) bytes = Header(*request_, chunk.points_total);
-  for (int64_t i = 0; i < chunk.count; ++i) {
-    AppendBytes(chunk.first_index + i, bytes);
-    for (const double value : cursor_.At(chunk.first_index + i)) AppendBytes(value, bytes);
-    for (size_t c = 0; c < request_->columns.size(); ++c) {
-      AppendBytes(chunk.values[c * static_cast<size_t>(chunk.count) + static_cast<size_t>(i)], bytes);
-    }
-    if (!request_->with_regime) continue;
-    AppendBytes(static_cast<uint8_t>(chunk.regimes[static_cast<size_t>(i)]), bytes);
-    AppendBytes(static_cast<uint8_t>(chunk.statuses[static_cast<size_t>(i)]), bytes);
-  }
-  return bytes;
-}
+SweepWriter MakeNpyWriter(const SweepRequest& request) { return NpyWriter(request); }
 
 }  // namespace ricochet::cli

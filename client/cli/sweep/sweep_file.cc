@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "absl/strings/ascii.h"
@@ -14,7 +15,6 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/io/csv_table.h"
-#include "client/cli/sweep/sweep_json.h"
 #include "client/cli/sweep/sweep_rows.h"
 
 namespace ricochet::cli {
@@ -88,7 +88,8 @@ absl::StatusOr<SweepTable> Read(std::ifstream& stream, const std::string& path,
 }  // namespace
 
 absl::StatusOr<SweepTable> ReadSweepFile(const std::string& path, const std::vector<std::string>& columns) {
-  if (std::filesystem::is_directory(path)) {
+  std::error_code unknown;  // What cannot be looked at cannot be opened either.
+  if (std::filesystem::is_directory(path, unknown)) {
     return absl::InvalidArgumentError(absl::StrCat(path, ": is a directory: must be a file of a sweep"));
   }
   std::ifstream stream(path, std::ios::binary);

@@ -19,6 +19,7 @@ namespace ricochet::cli {
 absl::StatusOr<SweepTable> ReadSweepFile(const std::string& path, const std::vector<std::string>& columns);
 
 // Reads the format that the name says, from its beginning. Errors do not name the file.
+absl::StatusOr<SweepTable> ReadSweepJson(std::istream& stream, const std::vector<std::string>& columns);
 absl::StatusOr<SweepTable> ReadSweepNpy(std::istream& stream, const std::vector<std::string>& columns);
 absl::StatusOr<SweepTable> ReadSweepNetcdf(const std::string& path, const std::vector<std::string>& columns);
 

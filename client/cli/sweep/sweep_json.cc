@@ -1,5 +1,3 @@
-#include "client/cli/sweep/sweep_json.h"
-
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/cli/sweep/sweep_file.h"
 #include "client/cli/sweep/sweep_rows.h"
 
 namespace ricochet::cli {

@@ -1,9 +1,13 @@
 #include "client/cli/sweep/sweep_output.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
+#include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "client/cli/terminal/progress.h"
 #include "client/tally_checker.h"
 #include "core/rows/checked_rows.h"
@@ -13,6 +17,13 @@
 
 namespace ricochet::cli {
 namespace {
+
+std::string Quoted(const std::string& argument) {
+  const bool plain = !argument.empty() && std::all_of(argument.begin(), argument.end(), [](char c) {
+    return absl::ascii_isalnum(static_cast<unsigned char>(c)) || absl::StrContains("-_./:=,@%+", c);
+  });
+  return plain ? argument : absl::StrCat("'", absl::StrReplaceAll(argument, {{"'", "'\\''"}}), "'");
+}
 
 // A manifest costs two waits for the disk. A run that is killed loses the points of this time at most.
 constexpr std::chrono::milliseconds kBetweenCheckpoints{500};
@@ -43,9 +54,9 @@ absl::StatusOr<SweepOutput> SweepOutput::Open(const SweepRequest& request, const
   SweepOutput output(MakeSweepWriter(request, options.format, summary_only, *points));
   output.progress_.set_next_index(request.first_index);
   if (options.format == Format::kNetcdf) {
-    absl::StatusOr<NetcdfFile> file = NetcdfFile::Create(request, options.output);
+    absl::StatusOr<std::unique_ptr<NetcdfFile>> file = NetcdfFile::Create(request, options.output);
     if (!file.ok()) return file.status();
-    output.netcdf_.emplace(*std::move(file));
+    output.netcdf_ = *std::move(file);
     return output;
   }
   absl::StatusOr<Output> opened = Output::Open(options.output);
@@ -104,7 +115,7 @@ absl::Status SweepOutput::Join(SweepChunk& chunk) {
 absl::Status SweepOutput::Write(const SweepChunk& chunk) {
   // The text may come to the terminal: a table, or the counts of invalid points.
   if (chunk.summary.has_value()) Progress::Erase();
-  if (netcdf_.has_value()) return netcdf_->Write(chunk);
+  if (netcdf_ != nullptr) return netcdf_->Write(chunk);
   const absl::StatusOr<std::string> text = writer_(chunk);
   if (!text.ok()) return text.status();
   if (!file_.has_value()) return output_->Write(*text);
@@ -122,7 +133,7 @@ absl::Status SweepOutput::Write(const SweepChunk& chunk) {
 }
 
 absl::Status SweepOutput::Commit() {
-  if (netcdf_.has_value()) return netcdf_->Commit();
+  if (netcdf_ != nullptr) return netcdf_->Commit();
   if (!file_.has_value()) return output_->Commit();
   if (shard_.has_value()) {
     // The shard's manifest counts only bytes that are on the disk.
@@ -142,6 +153,14 @@ void SweepOutput::LeaveForResume(const std::string& command) {
   static_cast<void>(file_->Checkpoint(progress_));
   std::fprintf(stderr, "%s is the first part of the sweep, the points before %lld. To go on:\n  %s\n",
                file_->part_path().c_str(), static_cast<long long>(file_->manifest().next_index()), command.c_str());
+}
+
+std::string ResumeCommand(const std::vector<std::string>& arguments) {
+  std::string command;
+  for (const std::string& argument : arguments) {
+    if (argument != "--resume") absl::StrAppend(&command, Quoted(argument), " ");
+  }
+  return command + "--resume";
 }
 
 }  // namespace ricochet::cli

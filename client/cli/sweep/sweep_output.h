@@ -4,9 +4,11 @@
 #define RICOCHET_CLIENT_CLI_SWEEP_SWEEP_OUTPUT_H_
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -61,12 +63,15 @@ class SweepOutput {
   SweepWriter writer_;  // None for NetCDF, which is no text.
   std::optional<SweepShard> shard_;
   std::optional<Output> output_;
-  std::optional<NetcdfFile> netcdf_;
+  std::unique_ptr<NetcdfFile> netcdf_;
   std::optional<PartialFile> file_;
   Partial progress_;      // The manifest of all that was written.
   SweepSummary earlier_;  // The counts of earlier runs.
   std::optional<Clock::time_point> checkpoint_;
 };
+
+// Returns the command line that goes on with an unfinished sweep: `arguments`, the name of the program first, with --resume, quoted for a shell.
+std::string ResumeCommand(const std::vector<std::string>& arguments);
 
 }  // namespace ricochet::cli
 

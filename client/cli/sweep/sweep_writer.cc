@@ -7,7 +7,6 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/io/row_writer.h"
 #include "client/cli/report/invalid_points.h"
-#include "client/cli/sweep/npy_writer.h"
 #include "client/cli/sweep/sweep_head.h"
 #include "client/cli/text/axis_cursor.h"
 #include "client/cli/text/enum_names.h"
@@ -161,7 +160,7 @@ class PointWriter {
 
 SweepWriter MakeSweepWriter(const SweepRequest& request, Format format, bool summary_only, int64_t table_points) {
   if (summary_only) return SummaryWriter(format);
-  if (format == Format::kNpy) return NpyWriter(request);
+  if (format == Format::kNpy) return MakeNpyWriter(request);
   if (format == Format::kNetcdf) return nullptr;
   return PointWriter(request, format, table_points);
 }

@@ -21,10 +21,15 @@ using SweepWriter = std::function<absl::StatusOr<std::string>(const SweepChunk&)
 // and the summary. kJson gives one document: engine, axes
 // and columns with their units, a list for each point, and the summary. kJsonLines gives an object on a line for each
 // point. kCsv gives a header before the first point of the range, and a line for each point. With `summary_only` there
-// is only the summary, as text, as the JSON of ricochet.v1.SweepSummary, or as CSV. kNpy is that of NpyWriter. NetCDF
-// is no text and has no writer.
+// is only the summary, as text, as the JSON of ricochet.v1.SweepSummary, or as CSV. kNpy is that of MakeNpyWriter.
+// NetCDF is no text and has no writer.
 SweepWriter MakeSweepWriter(const SweepRequest& request, Format format, bool summary_only = false,
                             int64_t table_points = 0);
+
+// The array of records in NumPy's format NPY, for numpy.load: the header before the first point of the range, and then
+// one record for each point. The fields of a record are index (int64), the axes and the columns by their paths
+// (float64), and regime and status (uint8, the numbers of ricochet.v1.Regime and RowStatus) if they were asked for.
+SweepWriter MakeNpyWriter(const SweepRequest& request);
 
 }  // namespace ricochet::cli
 

@@ -22,7 +22,7 @@ constexpr double kYearMs = 365.0 * 24 * 3600 * 1000;
 std::string ReadDecimal(absl::string_view text, double& value) {
   const char* first = text.data();
   const char* const last = first + text.size();
-  if (first != last && *first == '+') ++first;
+  if (absl::StartsWith(text, "+") && !absl::StartsWith(text, "+-")) ++first;
   const auto [end, error] = std::from_chars(first, last, value);
   if (end == last && error == std::errc::result_out_of_range) {
     return "be 0, or a number of a size from 4.95e-324 to 1.7976931348623157e+308";

@@ -165,7 +165,7 @@ struct FitResponse {
   int64_t degrees_of_freedom = 0;        // Measured numbers less combinations of unknowns that are seen.
   std::optional<double> p_value;         // The probability of so large a chi2; set if there is a degree of freedom.
   bool refused = false;                  // p_value < kFitRefusedBelow, or a row breaks a limit.
-  std::vector<FitStart> starts;          // The first is that of the request.
+  std::vector<FitStart> starts;          // Those asked for, the given one first; then those that found a better fit.
   bool starts_differ = false;            // Two of them ended in different places.
   std::vector<FitThreshold> thresholds;  // The best fit lies on these.
   std::vector<FitRegionPoint> region;    // Around the best fit; empty unless it was asked for.

@@ -26,8 +26,11 @@ enum class RowStatus : uint8_t {
   kInvalid = 3,           // The row breaks a rule of its scene, or needs an effect that the call excludes.
   kNotRepresentable = 4,  // A number asked for exceeds the largest double.
   kIncomplete = 5,        // The row has its numbers, but for those that its outcome leaves unset: they are quiet NaN.
+  // The row has its numbers, but the termination of its outcome is not kConverged: the stated error,
+  // accuracy.relative_error, exceeds the tolerance asked for, or the impact did not come to its end.
+  kNotConverged = 6,
 };
-inline constexpr int kRowStatusCount = 6;
+inline constexpr int kRowStatusCount = 7;
 
 struct SweepRequest {
   Grid grid;

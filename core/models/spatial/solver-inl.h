@@ -73,6 +73,7 @@ class Solver {
   static constexpr double kSwitchShare = 0.2;
 
   bool SlipKeepsItsDirection() const;
+  void SlideAlongTangent();
   bool SwitchToStraight(const SlipFrame<T>& slip_frame);
   bool StandsAlong(const Direction<T>& e) const;
   void StandSlipAlong(const Direction<T>& e);
@@ -109,6 +110,8 @@ std::optional<SlipFrame<T>> Solver<T>::Start() {
     SlideFreely(impact_);
   } else if (!slips) {
     ContinueFromStop(impact_);
+  } else if (problem_.w.tangent_is_singular && problem_.velocity_in_range) {
+    SlideAlongTangent();
   } else if (SlipKeepsItsDirection()) {
     SlideStraight(impact_, Normalized(state_.u1, state_.u2));
   } else {
@@ -131,8 +134,20 @@ Impact Solver<T>::Report() const {
 template <typename T>
 bool Solver<T>::SlipKeepsItsDirection() const {
   constexpr T kInvariant = T{8} * kEpsilon<T>;
-  return (problem_.w.tangent_is_singular && problem_.velocity_in_range) || problem_.grazes ||
-         std::fabs(problem_.FrameAt(Normalized(state_.u1, state_.u2)).Turn()) <= kInvariant;
+  return problem_.grazes || std::fabs(problem_.FrameAt(Normalized(state_.u1, state_.u2)).Turn()) <= kInvariant;
+}
+
+// Follows slip where Wtt is singular and its direction d is the only one that slip can have. Only rounding has put a
+// part of the slip beside it; taken for a direction, it could be any where the contact rolls.
+template <typename T>
+void Solver<T>::SlideAlongTangent() {
+  const Direction<T> d = problem_.w.TangentDirection();
+  const T along = d.c * state_.u1 + d.s * state_.u2;
+  state_.u1 = along * d.c;
+  state_.u2 = along * d.s;
+  if (along == T{0}) return ContinueFromStop(impact_);
+  const T sign = std::copysign(T{1}, along);
+  SlideStraight(impact_, {sign * d.c, sign * d.s});
 }
 
 template <typename T>

@@ -227,7 +227,7 @@ TEST_F(Cli, FitSaysWhatIsWrongWithItsTableAndItsOptions) {
   EXPECT_THAT(error(table, {"--unknown", "mu", "--unknown", "poisson", "--region", "mu,poisson", "--format", "csv"}),
               HasSubstr("--region needs --format json or --plot FILE"));
   EXPECT_THAT(error(table, {"--unknown", "poisson", "--sigma", "contact_velocity_after.normal_m_s=0"}),
-              HasSubstr("measured[0].sigma[0] = 0: must be > 0"));
+              HasSubstr("--sigma contact_velocity_after.normal_m_s = 0: must be > 0"));
   EXPECT_THAT(error("mass\n1\n", {"--unknown", "poisson"}), HasSubstr("--data has the column \"mass\""));
   EXPECT_THAT(error("planar_contact.tangential_m_s\n1\n", {"--unknown", "poisson"}), HasSubstr("measured is empty"));
   EXPECT_THAT(error(table + "x,0.5\n", {"--unknown", "poisson", "--sigma", sigma}),

@@ -141,7 +141,12 @@ class ColumnsTest(RicochetCase):
             self.assertEqual({row[column] for column in columns}, {"nan"}, what)
             return
         unset = [column for column in columns if column not in outcome]
-        wanted = "INADMISSIBLE" if not outcome["admissible"] else "INCOMPLETE" if unset else "OK"
+        if not outcome["admissible"]:
+            wanted = "INADMISSIBLE"
+        elif outcome["termination"] != "TERMINATION_CONVERGED":
+            wanted = "NOT_CONVERGED"
+        else:
+            wanted = "INCOMPLETE" if unset else "OK"
         self.assertEqual((row["status"], "REGIME_" + row["regime"]), (wanted, outcome["regime"]), what)
         for column in columns:
             if column in unset:

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "absl/strings/str_split.h"
-#include "client/cli/plot/inline_svg.h"
 #include "client/cli/report/cost_page.h"
 #include "client/cli/report/cost_picture.h"
+#include "client/cli/report/html_page.h"
 #include "ricochet/v1/cost.pb.h"
 #include "tests/client/cli/cli_run.h"
 #include "tests/client/cli/made_cost.h"

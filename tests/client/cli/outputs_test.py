@@ -277,7 +277,7 @@ class Outputs(unittest.TestCase):
 
     @each_case
     def test_an_empty_name_is_refused(self, flag, base):
-        self.assert_refused(flag.words, *base, *self.beside(flag), flag.name, "", says=f"ricochet: {flag.name}: must name a file")
+        self.assert_refused(flag.words, *base, *self.beside(flag), flag.name, "", says=f"ricochet: {flag.name}: must have a value")
 
     @each_case
     def test_minus_is_standard_output_where_text_can_go_there(self, flag, base):

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "client/cli/sweep/resume_command.h"
+#include "client/cli/sweep/sweep_output.h"
 #include "tests/client/cli/cli_run.h"
 #include "tests/support/processes/server_process.h"
 

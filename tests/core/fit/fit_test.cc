@@ -82,7 +82,8 @@ TEST(FitTest, FrictionOfRowsThatStickHasNoFiniteInterval) {
   }
 }
 
-TEST(FitTest, AnUnknownThatNoNumberDependsOnHasNoEnds) {
+// Static friction is at least kinetic friction, of which the data tell an end.
+TEST(FitTest, AnUnknownThatNoNumberDependsOnHasNoEndOfItsOwn) {
   Case given = ContactCase();
   given.unknowns.push_back({.path = "friction.static_coefficient", .start = 0.5});
   given.truth.friction.kinetic_coefficient = 0.05;
@@ -93,7 +94,8 @@ TEST(FitTest, AnUnknownThatNoNumberDependsOnHasNoEnds) {
   EXPECT_FALSE(response.unknowns[2].seen);
   EXPECT_EQ(response.unknowns[2].high.kind, FitEndKind::kNotSeen);
   EXPECT_FALSE(response.unknowns[2].high.value.has_value());
-  EXPECT_FALSE(response.unknowns[2].low.value.has_value());
+  ASSERT_TRUE(response.unknowns[2].low.value.has_value());
+  EXPECT_NEAR(*response.unknowns[2].low.value, *response.unknowns[0].low.value, 1e-5);
 }
 
 // Rows that slide tell the product mu (1 + e) alone where only the tangential velocity is measured and W is diagonal.
@@ -208,6 +210,27 @@ TEST(FitTest, FurtherStartsSpreadOverTheBounds) {
   }
   EXPECT_NE(response.starts[1].from, response.starts[2].from);
   EXPECT_NEAR(response.unknowns[0].value, 0.25, 1e-8);
+}
+
+// At the start all rows stick, so that no number changes with friction; the data are those of rows that slip.
+TEST(FitTest, DataAreNotRefusedBeforeFurtherStarts) {
+  Case given = ContactCase();
+  given.unknowns[0].start = 5.0;
+  FitRequest request = Noiseless(given);
+  const FitResponse response = *FitScene(request, Never);
+  EXPECT_GT(response.starts.size(), 1);
+  EXPECT_FALSE(response.refused);
+  EXPECT_TRUE(response.unknowns[0].seen);
+  EXPECT_NEAR(response.unknowns[0].value, given.truth.friction.kinetic_coefficient, 1e-8);
+}
+
+TEST(FitTest, WhatIsSeenDoesNotDependOnTheSizeOfTheStart) {
+  Case given = ContactCase();
+  given.unknowns[0].start = 1e-9;
+  const FitResponse response = *FitScene(Noiseless(given), Never);
+  EXPECT_NEAR(response.unknowns[0].value, given.truth.friction.kinetic_coefficient, 1e-8);
+  EXPECT_TRUE(response.unknowns[0].seen);
+  EXPECT_TRUE(response.unknowns[0].sigma.has_value());
 }
 
 // Without friction the rebound is the same for a centre of mass on either side.

@@ -41,6 +41,7 @@ struct Answer {
   absl::StatusCode code = absl::StatusCode::kOk;
   Regime regime = Regime::kInvalid;
   bool admissible = true;
+  Termination termination = Termination::kConverged;
   std::map<std::string, double> numbers;  // The numbers that are set.
 };
 
@@ -50,7 +51,8 @@ Answer AnswerOf(const Scene& scene, DemandFields demand, bool takes_time) {
       LocalSolver().Solve({.scene = scene, .demand = demand, .both_ends = HoldsCoordinates(scene.system)});
   if (!response.ok()) return {.code = response.status().code(), .numbers = {}};
   const Outcome& outcome = response->outcome;
-  Answer answer = {.regime = outcome.regime, .admissible = outcome.admissible, .numbers = {}};
+  Answer answer = {
+      .regime = outcome.regime, .admissible = outcome.admissible, .termination = outcome.termination, .numbers = {}};
   VisitOutcomeNumbers(outcome,
                       [&](const NumberPath& path, double number) { answer.numbers.emplace(path.Text(), number); });
   return answer;
@@ -76,6 +78,7 @@ BatchTable TableOf(const std::vector<Scene>& scenes, const DemandFields& demand)
 RowStatus StatusOf(const Answer& answer, const std::vector<std::string>& columns) {
   if (answer.code == absl::StatusCode::kInvalidArgument) return RowStatus::kInvalid;
   if (!answer.admissible) return RowStatus::kInadmissible;
+  if (answer.termination != Termination::kConverged) return RowStatus::kNotConverged;
   const bool is_complete = std::all_of(columns.begin(), columns.end(),
                                        [&](const std::string& column) { return answer.numbers.contains(column); });
   return is_complete ? RowStatus::kOk : RowStatus::kIncomplete;
@@ -286,6 +289,8 @@ TEST(ColumnTest, AnErrorMayBeInfiniteAndNoOtherNumberMay) {
   const auto too_large = read({"errors.poisson", "impulse.normal_total_n_s"}, numbers);
   EXPECT_EQ(too_large.status, RowStatus::kNotRepresentable);
   EXPECT_EQ(too_large.too_large, 1U);
+  outcome.termination = Termination::kLessAccurate;
+  EXPECT_EQ(read({"errors.poisson"}, numbers).status, RowStatus::kNotConverged);
   outcome.admissible = false;
   EXPECT_EQ(read({"errors.poisson"}, numbers).status, RowStatus::kInadmissible);
 }

@@ -32,7 +32,7 @@ TEST(WatchdogTest, ReportsEachChangeOnce) {
     const std::lock_guard lock(mutex);
     reports.emplace_back(status.ok() ? "good" : status.message());
   };
-  const Watchdog watchdog(milliseconds(1), check, report);
+  const std::jthread watchdog = StartWatchdog(milliseconds(1), check, report);
   const auto wait_for_checks = [&checks] {
     const int before = checks;
     EXPECT_TRUE(Eventually([&] { return checks >= before + 3; }));
@@ -50,7 +50,7 @@ TEST(WatchdogTest, EndsWithoutAReportWhileACheckOrAPauseLasts) {
   std::atomic<bool> checking = false;
   bool reported = false;
   {
-    const Watchdog watchdog(
+    const std::jthread watchdog = StartWatchdog(
         milliseconds(1),
         [&](const std::stop_token& stop) {
           checking = true;
@@ -61,7 +61,7 @@ TEST(WatchdogTest, EndsWithoutAReportWhileACheckOrAPauseLasts) {
     ASSERT_TRUE(Eventually([&] { return checking.load(); }));
   }
   EXPECT_FALSE(reported);
-  const Watchdog pausing(
+  const std::jthread pausing = StartWatchdog(
       std::chrono::hours(1), [](const std::stop_token&) { return absl::OkStatus(); }, [](const absl::Status&) {});
 }
 

@@ -35,7 +35,7 @@ class ServingCheckTest : public testing::Test {
   }
 
   absl::Status Check(std::chrono::milliseconds patience) {
-    return ServingCheck(addresses_, *acceptor_, scheduler_, patience).Run(stop_.get_token());
+    return CheckServing(addresses_, *acceptor_, scheduler_, patience, stop_.get_token());
   }
 
   std::ostringstream logged_;

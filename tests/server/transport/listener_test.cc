@@ -58,6 +58,7 @@ TEST(Listener, NameWithSeveralAddressesHasOnePort) {
   std::set<int> ports;
   for (const Listener& listener : *listeners) ports.insert(listener.address().port);
   EXPECT_THAT(ports, SizeIs(1));
+  EXPECT_EQ(listeners->back().address().host, "127.0.0.1");
 }
 
 TEST(Listener, SecondOneOnAPortIsRefused) {

@@ -613,6 +613,29 @@ TEST(SpatialTest, RankOneIsPlanarAlongItsTangentialDirection) {
   }
 }
 
+// A contact in a plane that stands anywhere: Wtt is singular but for rounding, and slip that is 0 but for rounding has no
+// direction of its own.
+TEST(SpatialTest, AVerticalPlaneThatIsTurnedIsThePlanarModel) {
+  SceneSource source(31);
+  for (int i = 0; i < 3000; ++i) {
+    Problem p = source.Typical();
+    p.w12 = p.w22 = p.w23 = 0.0;
+    p.u0 = {i % 3 == 0 ? 0.0 : p.u0[0], 0.0};
+    const planar::Impact planar = planar::Solve(InPlane(p));
+    if (planar.regime == Regime::kWedged) continue;
+    const double angle = 0.001 * (i + 1);
+    Problem turned = Turned(p, std::cos(angle), std::sin(angle));
+    if (i % 3 == 0) turned.u0 = {1e-17 * Scale(p) * (i % 5 - 2), 1e-17 * Scale(p) * (i % 7 - 3)};
+    const Impact impact = Solve(turned);
+    const double u1 = std::cos(angle) * impact.u1[0] - std::sin(angle) * impact.u1[1];
+    const double across = std::sin(angle) * impact.u1[0] + std::cos(angle) * impact.u1[1];
+    ASSERT_NEAR(u1, planar.u1, 1e-12 * Scale(p)) << i;
+    ASSERT_NEAR(across, 0.0, 1e-12 * Scale(p)) << i;
+    ASSERT_NEAR(impact.v1, planar.v1, 1e-12 * Scale(p)) << i;
+    ASSERT_LE(impact.error_estimate, 1e-11) << i;
+  }
+}
+
 TEST(SpatialTest, RankTwoThatSticksIsLocked) {
   // Because wtn = Wtt (1/2, 1/2) and Wnn matches, u and v vanish together once slip has stopped.
   const Problem problem = {.w11 = 1.0,
