@@ -172,7 +172,8 @@ void ReduceAll(const States& states, int64_t count) {
 }
 
 // Returns the columns of the contacts (W by its upper triangle, then the contact velocity), the axes t1, t2, n of each
-// (B x 3 x 3), J in them (B x 3 x n), and M^-1 J^T (B x n x 3). M is B x n x n, J is B x 3 x n, q' B x n and the normals B x 3.
+// (B x 3 x 3), J in them (B x 3 x n), and M^-1 J^T (B x n x 3). M is B x n x n, J is B x 3 x n, q' B x n, and the
+// normals are B x 3.
 py::tuple ReduceStates(const Numbers& mass, const Numbers& jacobian, const Numbers& rates, const Numbers& normal,
                        const std::vector<int32_t>& held) {
   const py::ssize_t count = rates.shape(0);

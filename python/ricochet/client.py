@@ -399,8 +399,9 @@ class Client:
 
         Returns:
             A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``; a number
-            that the outcome of a row leaves unset is NaN, and the status is ``"INCOMPLETE"``; ``"NOT_CONVERGED"`` is a row
-            whose ``accuracy.relative_error`` exceeds the tolerance. A warning ``InvalidRows`` counts rows that break a rule, and ``table.summary.bad_rows`` has the reasons of the first ones.
+            that the outcome of a row leaves unset is NaN, and the status is ``"INCOMPLETE"``; ``"NOT_CONVERGED"`` is
+            that of a row whose ``accuracy.relative_error`` exceeds the tolerance. A warning ``InvalidRows`` counts rows
+            that break a rule, and ``table.summary.bad_rows`` has the reasons of the first ones.
 
         Raises:
             InvalidRequest: the scene, a path, an entry or the length of an array is wrong.
@@ -487,9 +488,9 @@ class Client:
         Returns:
             The numbers of each column, ``regime``, and ``status``, which says whether a point is ``"OK"`` or
             ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN, and a warning ``InvalidRows`` says
-            so; one whose outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there; ``"NOT_CONVERGED"`` is one
-            whose ``accuracy.relative_error`` exceeds the tolerance. ``attrs`` has the request
-            and the engine, under the names that the files of the command line have.
+            so; one whose outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there; ``"NOT_CONVERGED"`` is
+            one whose ``accuracy.relative_error`` exceeds the tolerance. ``attrs`` has the request and the engine, under
+            the names that the files of the command line have.
 
         Raises:
             InvalidRequest: the scene, an axis or a column is wrong.

@@ -15,8 +15,8 @@
 
 namespace ricochet::server {
 
-// Connects to every address and waits until the acceptor, which listens there, has noticed; then waits for a turn at the
-// scheduler. Each step may take `patience`. Returns OK early once `stop` is requested.
+// Connects to every address and waits until the acceptor, which listens there, has noticed; then waits for a turn at
+// the scheduler. Each step may take `patience`. Returns OK early once `stop` is requested.
 // Errors: UNAVAILABLE that says what does not work.
 absl::Status CheckServing(const std::vector<ListenAddress>& addresses, const Acceptor& acceptor, Scheduler& scheduler,
                           std::chrono::milliseconds patience, const std::stop_token& stop);

@@ -70,7 +70,8 @@ class SweepOutput {
   std::optional<Clock::time_point> checkpoint_;
 };
 
-// Returns the command line that goes on with an unfinished sweep: `arguments`, the name of the program first, with --resume, quoted for a shell.
+// Returns the command line that goes on with an unfinished sweep: `arguments`, the name of the program first, with
+// --resume, quoted for a shell.
 std::string ResumeCommand(const std::vector<std::string>& arguments);
 
 }  // namespace ricochet::cli

@@ -613,8 +613,8 @@ TEST(SpatialTest, RankOneIsPlanarAlongItsTangentialDirection) {
   }
 }
 
-// A contact in a plane that stands anywhere: Wtt is singular but for rounding, and slip that is 0 but for rounding has no
-// direction of its own.
+// A contact in a plane that stands anywhere: Wtt is singular but for rounding, and slip that is 0 but for rounding has
+// no direction of its own.
 TEST(SpatialTest, AVerticalPlaneThatIsTurnedIsThePlanarModel) {
   SceneSource source(31);
   for (int i = 0; i < 3000; ++i) {
