@@ -32,6 +32,8 @@ constexpr int kMostRestarts = 4;
 // Before the data refuse a fit it is sought from so many further starts: where all rows stick, or none approaches, the
 // search sees no way to a better one.
 constexpr int kFurtherStarts = 16;
+// One of these has found the same fit if it lowers the objective by less than this part of it.
+constexpr double kSameFit = 1e-6;
 
 // Refuses a start at which a measured number has no prediction.
 absl::Status CheckStart(const FitRequest& request, Model& model) {
@@ -103,7 +105,7 @@ class Fitter {
     const std::vector<double> start = StartOf(problem_, number);
     const Minimum found = Minimize(start, all_free_, kFineSearch, model_);
     // Of the starts that were not asked for, those tell something that lead to a better fit.
-    if (number >= problem_.starts && !(found.objective < best_.objective)) return;
+    if (number >= problem_.starts && !(found.objective < (1.0 - kSameFit) * best_.objective)) return;
     const bool has_start = std::isfinite(found.objective);
     response_.starts.push_back({start, found.at, found.objective, found.iterations, found.converged && has_start});
     if (number == 0 || found.objective < best_.objective) best_ = found;

@@ -77,6 +77,7 @@ class Ray {
       Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
       if (found.objective < least.objective) least = std::move(found);
       if (least.objective - best_.objective < rise_) break;
+      if (from == best_.at && !std::isfinite(least.objective)) break;  // Beyond a rule of the scene, and not a valley.
     }
     if (std::isfinite(least.objective)) last_ = least.at;
     if (least.objective < best_.objective - kSameFit && !end_.better.has_value()) end_.better = least;

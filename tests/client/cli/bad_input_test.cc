@@ -103,7 +103,7 @@ std::vector<BadInput> Flags() {
        "--server = localhost:1: must name at least two servers, separated by commas, for --fan-out", ""},
       {{"health"}, "--server is required", ""},
       {{"solve", "--a", "long"}, "--a = long: must be a number such as 0.1", ""},
-      {{"solve", "--a", ""}, "--a = : must be a number", ""},
+      {{"solve", "--a", ""}, "--a: must have a value", ""},
       {{"solve", "--a", "1e999"}, "--a = 1e999: must be 0, or a number of a size from 4.95e-324 to 1.797", ""},
       {{"solve", "--a", "0,3"}, "--a = 0,3: must be a number with a decimal point, not a comma", ""},
       {{"solve", "--a", "3deg"}, "--a = 3deg: must be a number without deg, because it is no angle", ""},
