@@ -128,7 +128,7 @@ absl::Status Server::Listen() {
   if (!endpoint.ok()) return endpoint.status();
   endpoint_ = *std::move(endpoint);
   SetServing(true);
-  StartWatchdog();
+  Watch();
   LogAddresses("listening", *endpoint_);
   if (options_.reflection.empty()) return absl::OkStatus();
   settings.addresses = options_.reflection;
@@ -144,7 +144,7 @@ void Server::SetServing(bool serving) {
   endpoint_->server().GetHealthCheckService()->SetServingStatus(v1::ImpactService::service_full_name(), serving);
 }
 
-void Server::StartWatchdog() {
+void Server::Watch() {
   const auto check = [this](const std::stop_token& stop) {
     return CheckServing(endpoint_->addresses(), endpoint_->acceptor(), scheduler_, kWatchdogPatience, stop);
   };
@@ -153,7 +153,7 @@ void Server::StartWatchdog() {
     if (status.ok()) return log_.Write(LogLevel::kInfo, "serving again", {});
     log_.Write(LogLevel::kError, "cannot serve", {{"reason", std::string(status.message())}});
   };
-  watchdog_ = ricochet::server::StartWatchdog(kWatchdogPause, check, report);
+  watchdog_ = StartWatchdog(kWatchdogPause, check, report);
 }
 
 absl::Status Server::OpenMetrics() {

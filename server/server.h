@@ -58,7 +58,7 @@ class Server {
   absl::Status Listen();
   // Adds the metrics of what this server holds now, and serves all metrics if the options ask for it.
   absl::Status OpenMetrics();
-  void StartWatchdog();
+  void Watch();
   void SetServing(bool serving);
   void LogAddresses(const std::string& event, const Endpoint& endpoint) const;
   void HangUp();

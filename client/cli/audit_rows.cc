@@ -1,8 +1,6 @@
 #include "client/cli/audit_rows.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -10,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/input/audit_data.h"
+#include "client/cli/input/scene_input.h"
 #include "client/cli/io/csv_row.h"
 #include "client/cli/io/output.h"
 #include "client/cli/report/audit_plot.h"
@@ -189,13 +188,10 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
   std::ifstream file;
   int64_t size = 0;
   if (!is_standard) {
+    absl::StatusOr<std::ifstream> opened = OpenToRead(data.file);
+    if (!opened.ok()) return opened.status();
+    file = *std::move(opened);
     std::error_code unknown;
-    const bool is_directory = std::filesystem::is_directory(data.file, unknown);
-    if (!is_directory) file.open(data.file, std::ios::binary);
-    if (!file.is_open()) {
-      const int error = is_directory ? EISDIR : errno;
-      return absl::InvalidArgumentError(absl::StrCat("cannot read ", data.file, ": ", std::strerror(error)));
-    }
     const auto bytes = std::filesystem::file_size(data.file, unknown);
     if (!unknown) size = static_cast<int64_t>(bytes);
   }

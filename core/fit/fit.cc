@@ -32,8 +32,8 @@ constexpr int kMostRestarts = 4;
 // Before the data refuse a fit it is sought from so many further starts: where all rows stick, or none approaches, the
 // search sees no way to a better one.
 constexpr int kFurtherStarts = 16;
-// One of these has found the same fit if it lowers the objective by less than this part of it.
-constexpr double kSameFit = 1e-6;
+// One of these that lowers the objective by less than this part of it has found the same fit.
+constexpr double kLeastGain = 1e-6;
 
 // Refuses a start at which a measured number has no prediction.
 absl::Status CheckStart(const FitRequest& request, Model& model) {
@@ -90,8 +90,7 @@ class Fitter {
     if (model_.is_stopped()) return {};  // There may be no fit yet to look at.
     Look();
     for (int number = problem_.starts; number < problem_.starts + kFurtherStarts && IsRefused(); ++number) {
-      SearchFrom(number);
-      Look();
+      if (SearchFrom(number)) Look();
     }
     for (int restart = 0; FollowUnknowns(restart < kMostRestarts) && !model_.is_stopped(); ++restart) Look();
     FollowRegion();
@@ -100,28 +99,24 @@ class Fitter {
   }
 
  private:
-  void SearchFrom(int number) {
-    if (model_.is_stopped()) return;
+  // Returns true if the fit is the best so far.
+  bool SearchFrom(int number) {
+    if (model_.is_stopped()) return false;
     const std::vector<double> start = StartOf(problem_, number);
     const Minimum found = Minimize(start, all_free_, kFineSearch, model_);
     // Of the starts that were not asked for, those tell something that lead to a better fit.
-    if (number >= problem_.starts && !(found.objective < (1.0 - kSameFit) * best_.objective)) return;
+    if (number >= problem_.starts && !(found.objective < (1.0 - kLeastGain) * best_.objective)) return false;
     const bool has_start = std::isfinite(found.objective);
     response_.starts.push_back({start, found.at, found.objective, found.iterations, found.converged && has_start});
-    if (number == 0 || found.objective < best_.objective) best_ = found;
+    const bool is_best = number == 0 || found.objective < best_.objective;
+    if (is_best) best_ = found;
+    return is_best;
   }
 
   // True if the residuals of the best fit are too large for their errors.
-  bool IsRefused() {
-    std::vector<double> predicted;
-    if (!model_.Predict(best_.at, predicted)) return false;
-    double chi2 = 0.0;
-    for (size_t i = 0; i < predicted.size(); ++i) {
-      const double residual = problem_.numbers[i].Residual(predicted[i]);
-      chi2 += residual * residual;
-    }
-    const double degrees = static_cast<double>(predicted.size()) - static_cast<double>(information_.rank);
-    return degrees > 0.0 && ChiSquaredBeyond(chi2, degrees) < kFitRefusedBelow;
+  bool IsRefused() const {
+    const std::optional<double> p_value = PValueOf(chi2_, information_);
+    return p_value.has_value() && *p_value < kFitRefusedBelow;
   }
 
   // Sees what the data tell at the best fit.
@@ -130,8 +125,10 @@ class Fitter {
     if (!model_.Predict(best_.at, predicted) || !model_.Differentiate(best_.at, all_free_, derivatives)) {
       derivatives.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
     }
+    chi2_ = 0.0;
     for (size_t i = 0; i < predicted.size(); ++i) {
       const double residual = problem_.numbers[i].Residual(predicted[i]);
+      chi2_ += residual * residual;
       weights.push_back(LossOf(problem_, residual * residual).weight);
     }
     weights.resize(problem_.numbers.size(), 1.0);
@@ -216,6 +213,7 @@ class Fitter {
   const std::vector<bool> all_free_;
   Minimum best_;
   Information information_;
+  double chi2_ = 0.0;
   FitResponse response_;
 };
 

@@ -69,6 +69,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
       if (std::fabs(part[k]) > kLeastPart) information.is_seen[static_cast<size_t>(k)] = false;
     }
   }
+  information.degrees_of_freedom = count - static_cast<int64_t>(information.rank);
   for (Eigen::Index k = 0; k < size; ++k) {
     for (Eigen::Index j = 0; j < size; ++j) {
       const bool both = information.is_seen[static_cast<size_t>(k)] && information.is_seen[static_cast<size_t>(j)];
@@ -81,6 +82,11 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
 
 double ChiSquaredBeyond(double value, double degrees_of_freedom) {
   return Eigen::numext::igammac(0.5 * degrees_of_freedom, 0.5 * value);
+}
+
+std::optional<double> PValueOf(double chi2, const Information& information) {
+  if (information.degrees_of_freedom <= 0) return std::nullopt;
+  return ChiSquaredBeyond(chi2, static_cast<double>(information.degrees_of_freedom));
 }
 
 }  // namespace ricochet::fit

@@ -8,6 +8,8 @@
 #define RICOCHET_CORE_FIT_INFORMATION_H_
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/fit/problem.h"
@@ -16,6 +18,7 @@ namespace ricochet::fit {
 
 struct Information {
   size_t rank = 0;                              // Combinations of unknowns that are seen.
+  int64_t degrees_of_freedom = 0;               // Measured numbers less these combinations.
   std::vector<bool> is_seen;                    // By itself.
   std::vector<double> covariance, correlation;  // FitResponse explains both.
   std::vector<std::vector<double>> row_shares;  // FitEstimate explains them; one list for each unknown.
@@ -28,6 +31,9 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
 
 // The probability that chi-squared with so many degrees of freedom, > 0, exceeds a value, exact to some 1e-12 of 1.
 double ChiSquaredBeyond(double value, double degrees_of_freedom);
+
+// The probability of so large a sum of squared residuals, or a larger one; none without a degree of freedom.
+std::optional<double> PValueOf(double chi2, const Information& information);
 
 }  // namespace ricochet::fit
 

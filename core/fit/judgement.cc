@@ -240,10 +240,8 @@ void Judge(const Problem& problem, const std::vector<double>& best, const Inform
   response.why_differences = problem.why_differences;
   response.exact_derivatives = problem.why_differences.empty();
   SetRows(problem, best, model, response);
-  response.degrees_of_freedom = static_cast<int64_t>(problem.numbers.size()) - static_cast<int64_t>(information.rank);
-  if (response.degrees_of_freedom > 0) {
-    response.p_value = ChiSquaredBeyond(response.chi2, static_cast<double>(response.degrees_of_freedom));
-  }
+  response.degrees_of_freedom = information.degrees_of_freedom;
+  response.p_value = PValueOf(response.chi2, information);
   AuditRows(problem, best, model, response);
   response.refused =
       Chi2IsTooLarge(response) || std::any_of(response.rows.begin(), response.rows.end(),

@@ -84,16 +84,32 @@ std::optional<Vector> OnlySlip(const Velocities& velocities, const Vector& norma
   return direction;
 }
 
-// The axes t1, t2 and n of a contact: n along `normal`, t1 along the slip, or anywhere if nothing slips.
-std::array<Vector, 3> AxesOf(const Vector& velocity, const Vector& normal) {
-  Vector t1 = UnitAcross(velocity, normal);
+// The vector over its length.
+Vector Unit(const Vector& vector) {
+  const Vector scaled = Scaled(vector);
+  const double length = std::sqrt(Dot(scaled, scaled));
+  return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
+}
+
+// The axes t1, t2 and n of a contact.
+struct Axes {
+  std::array<Vector, 3> of;
+  bool is_planar;  // The contact cannot move along t2.
+};
+
+// n is along `normal`, t1 along the slip, or anywhere if nothing slips.
+Axes AxesOf(const Velocities& velocities, const Vector& velocity, const Vector& normal) {
+  const std::optional<Vector> only = OnlySlip(velocities, normal);
+  const double sign = only.has_value() && Dot(*only, velocity) < 0.0 ? -1.0 : 1.0;
+  Vector t1 = UnitAcross(only.value_or(velocity), normal);
+  for (double& component : t1) component *= sign;
   if (!std::isfinite(Dot(t1, t1))) {
     Vector any = {};
     const auto smaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
     any[static_cast<size_t>(std::min_element(normal.begin(), normal.end(), smaller) - normal.begin())] = 1.0;
     t1 = UnitAcross(any, normal);
   }
-  return {t1, Cross(normal, t1), normal};
+  return {.of = {t1, Cross(normal, t1), normal}, .is_planar = only.has_value()};
 }
 
 // The arrays of a call: those of the caller, and those of the answer.
@@ -112,25 +128,19 @@ void Reduce(const States& states, size_t state, Scene& scene) {
   const double* const mass = states.mass + state * n * n;
   const double* const jacobian = states.jacobian + state * 3 * n;
   const double* const rates = states.rates + state * n;
-  const double* const given = states.normal + state * 3;
-  Vector normal = Scaled({given[0], given[1], given[2]});
-  const double length = std::sqrt(Dot(normal, normal));
-  for (double& component : normal) component /= length;
+  const double* const normal = states.normal + state * 3;
   Vector velocity = {};
   for (size_t i = 0; i < 3; ++i) {
     for (size_t k = 0; k < n; ++k) velocity[i] += jacobian[i * n + k] * rates[k];
   }
   const Velocities velocities = {n, jacobian};
-  const std::optional<Vector> only = OnlySlip(velocities, normal);
-  const double sign = only.has_value() && Dot(*only, velocity) < 0.0 ? -1.0 : 1.0;
-  const std::array<Vector, 3> axes =
-      AxesOf(only.has_value() ? Vector{sign * (*only)[0], sign * (*only)[1], sign * (*only)[2]} : velocity, normal);
+  const Axes axes = AxesOf(velocities, velocity, Unit({normal[0], normal[1], normal[2]}));
   mechanism.mass_matrix.assign(mass, mass + n * n);
   mechanism.rates.assign(rates, rates + n);
   for (size_t i = 0; i < 3; ++i) {
-    std::copy(axes[i].begin(), axes[i].end(), states.axes + (state * 3 + i) * 3);
+    std::copy(axes.of[i].begin(), axes.of[i].end(), states.axes + (state * 3 + i) * 3);
     for (size_t k = 0; k < n; ++k) {
-      mechanism.jacobian[i * n + k] = only.has_value() && i == 1 ? 0.0 : Dot(axes[i], velocities.Of(k));
+      mechanism.jacobian[i * n + k] = axes.is_planar && i == 1 ? 0.0 : Dot(axes.of[i], velocities.Of(k));
     }
   }
   std::copy(mechanism.jacobian.begin(), mechanism.jacobian.end(), states.turned + state * 3 * n);

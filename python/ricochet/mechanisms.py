@@ -51,8 +51,10 @@ def _without_rounding(mass: Numbers) -> Numbers:
     if np.array_equal(mass, across):
         return mass
     roots = np.sqrt(np.abs(np.diagonal(mass, axis1=-2, axis2=-1)))
-    is_rounding = np.abs(mass - across) <= _ROUNDING * roots[..., :, None] * roots[..., None, :]
-    every: Numbers = np.where(is_rounding.all(axis=(-2, -1), keepdims=True), 0.5 * (mass + across), mass)
+    with np.errstate(invalid="ignore"):  # Infinite entries are refused as they are.
+        mean = 0.5 * mass + 0.5 * across  # The sum itself may overflow.
+        is_rounding = np.abs(mass - across) <= _ROUNDING * roots[..., :, None] * roots[..., None, :]
+    every: Numbers = np.where(is_rounding.all(axis=(-2, -1), keepdims=True), mean, mass)
     return every
 
 

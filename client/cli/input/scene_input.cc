@@ -102,6 +102,10 @@ bool AnyFlag(const SceneOptions& options) {
                      [&](const SceneFlag& flag) { return (options.*flag.value).has_value(); });
 }
 
+absl::Status CannotRead(const std::string& path, int error) {
+  return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": ", std::strerror(error)));
+}
+
 absl::Status AsStatus(const std::string& name, const std::string& wrong) {
   return wrong.empty() ? absl::OkStatus() : absl::InvalidArgumentError(absl::StrCat(name, " ", wrong));
 }
@@ -209,18 +213,21 @@ absl::Status ReadAnyScene(const SceneOptions& options, std::variant<Scene, Multi
 
 static absl::StatusOr<std::string> ReadBytes(const std::string& path) {
   if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
-  std::error_code unknown;  // What cannot be looked at cannot be opened either.
-  if (std::filesystem::is_directory(path, unknown)) {
-    return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": Is a directory"));
-  }
-  std::ifstream file(path, std::ios::binary);
+  absl::StatusOr<std::ifstream> file = OpenToRead(path);
+  if (!file.ok()) return file.status();
   std::ostringstream text;
-  if (file) text << file.rdbuf();
+  text << file->rdbuf();
   // An empty file sets the failbit of `text` but not that of `file`.
-  if (!file) {
-    return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": ", std::strerror(errno)));
-  }
+  if (!*file) return CannotRead(path, errno);
   return text.str();
+}
+
+absl::StatusOr<std::ifstream> OpenToRead(const std::string& path) {
+  std::error_code unknown;  // What cannot be looked at cannot be opened either.
+  if (std::filesystem::is_directory(path, unknown)) return CannotRead(path, EISDIR);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return CannotRead(path, errno);
+  return file;
 }
 
 absl::StatusOr<std::string> ReadText(const std::string& path) {

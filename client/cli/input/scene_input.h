@@ -3,6 +3,7 @@
 #ifndef RICOCHET_CLIENT_CLI_INPUT_SCENE_INPUT_H_
 #define RICOCHET_CLIENT_CLI_INPUT_SCENE_INPUT_H_
 
+#include <fstream>
 #include <optional>
 #include <string>
 #include <variant>
@@ -68,6 +69,9 @@ absl::Status RequireVelocity(const Scene& scene);
 // Returns the whole text of a file, or of standard input for "-", without a byte order mark in front of it.
 // Errors: INVALID_ARGUMENT that names the file.
 absl::StatusOr<std::string> ReadText(const std::string& path);
+
+// Opens a file that is no directory. Errors: INVALID_ARGUMENT that names the file.
+absl::StatusOr<std::ifstream> OpenToRead(const std::string& path);
 
 // Reads a message of any type from a file, or from standard input for "-" (proto/text/message_text.h).
 // Errors: INVALID_ARGUMENT that names the file, and the line if the parser tells it.

@@ -96,6 +96,8 @@ struct ScaledProblem : Contact<T> {
   std::optional<Direction<T>> AttractingDirectionNear(const Frame<T>& frame) const;
 
   bool HasNoFriction() const { return mu == T{0} || (w.HasNoTangentialMobility() && u1 == T{0} && u2 == T{0}); }
+  // Where Wtt is singular and slip lies in its range, slip knows one direction only.
+  bool SlipHasOneDirection() const { return w.tangent_is_singular && velocity_in_range; }
   // Where friction and the joints lock the body, u and v vanish together. Beside the range of W they do not: a contact
   // that sticks keeps its v.
   bool Locks(const Sticking<T>& sticking) const { return sticking.v_slope == T{0} && velocity_in_range; }
@@ -144,10 +146,8 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
   largest_root = std::sqrt(largest);
   velocity_in_range =
       rank == 3 || VelocityIsInRange(SpatialReduction{.w = problem.Delassus().w, .u0 = problem.u0, .v0 = problem.v0});
-  // Where Wtt is singular and slip lies in its range, slip knows one direction only. Where Wtt = 0 friction moves
-  // nothing, and any number serves.
-  const bool has_one_direction = w.tangent_is_singular && velocity_in_range;
-  const T smallest = has_one_direction ? largest : w.TangentDeterminant() / largest;
+  // Where Wtt = 0 friction moves nothing, and any number serves.
+  const T smallest = SlipHasOneDirection() ? largest : w.TangentDeterminant() / largest;
   smallest_root = largest > T{0} ? std::sqrt(std::max(smallest, kEpsilon<T> * largest)) : T{1};
   normal_root = std::sqrt(w.w33);
   steepest = w.w33 + mu * coupling;

@@ -110,7 +110,7 @@ std::optional<SlipFrame<T>> Solver<T>::Start() {
     SlideFreely(impact_);
   } else if (!slips) {
     ContinueFromStop(impact_);
-  } else if (problem_.w.tangent_is_singular && problem_.velocity_in_range) {
+  } else if (problem_.SlipHasOneDirection()) {
     SlideAlongTangent();
   } else if (SlipKeepsItsDirection()) {
     SlideStraight(impact_, Normalized(state_.u1, state_.u2));
