@@ -32,7 +32,7 @@ struct RequestCost {
   int octave = 0;  // Binary logarithm of the size of the work, rounded down; the unit differs from cause to cause.
 
   bool is_cheap() const { return cause == CostCause::kNothing; }
-  friend auto operator<=>(const RequestCost&, const RequestCost&) = default;
+  friend auto operator<=>(const RequestCost&, const RequestCost&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 RequestCost CostOf(const SolveRequest& request);
