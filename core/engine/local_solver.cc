@@ -211,7 +211,11 @@ absl::StatusOr<FitResponse> LocalSolver::DoFit(const FitRequest& request, const 
   CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
-  absl::StatusOr<FitResponse> response = FitScene(request, [&control] { return control.IsStopped(); });
+  const auto open_rows = [this, &options](CheckedBatch batch) -> fit::SolveRows {
+    return [rows = std::make_unique<ParallelBatch>(std::move(batch), HelpersOf(options))](
+               const BatchRows& all, absl::FunctionRef<bool()> stopped) { return rows->Solve(all, stopped); };
+  };
+  absl::StatusOr<FitResponse> response = FitScene(request, open_rows, [&control] { return control.IsStopped(); });
   if (!response.ok()) return control.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;

@@ -1,5 +1,6 @@
 #include "core/engine/parallel_batch.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -42,22 +43,29 @@ absl::StatusOr<std::unique_ptr<ParallelBatch>> ParallelBatch::Make(const BatchSe
                                                                    std::shared_ptr<Helpers> helpers) {
   absl::StatusOr<CheckedBatch> batch = CheckBatch(setup);
   if (!batch.ok()) return batch.status();
-  return std::unique_ptr<ParallelBatch>(new ParallelBatch(*std::move(batch), std::move(helpers)));
+  return std::make_unique<ParallelBatch>(*std::move(batch), std::move(helpers));
+}
+
+// Returns how many rows a thread takes at once. Rows outside the lanes may take milliseconds each, so that many threads
+// should find some of a few; four together still share the lanes of a contact in space.
+size_t ParallelBatch::PieceOf(size_t rows) const {
+  return own_->is_in_lanes() ? RowSolver::kBlock : std::clamp<size_t>(rows / 64, 4, 64);
 }
 
 absl::StatusOr<BatchSummary> ParallelBatch::Solve(const BatchRows& rows, absl::FunctionRef<bool()> stopped) {
   const absl::Status misfit = CheckRows(rows, batch_.fields.size(), batch_.columns.size());
   if (!misfit.ok()) return misfit;
   const size_t all = RowCount(rows);
-  if (all <= kPiece) {
+  const size_t size = PieceOf(all);
+  if (all <= size) {
     BatchSummary summary;
     if (!SolvePart(rows, 0, all, *own_, summary, stopped)) return Stopped();
     return summary;
   }
-  std::vector<BatchSummary> summaries((all + kPiece - 1) / kPiece);
+  std::vector<BatchSummary> summaries((all + size - 1) / size);
   const auto solve_piece = [&](size_t piece, RowSolver& solver, absl::FunctionRef<bool()> is_stopped) {
-    const size_t first = piece * kPiece;
-    return SolvePart(rows, first, std::min(kPiece, all - first), solver, summaries[piece], is_stopped);
+    const size_t first = piece * size;
+    return SolvePart(rows, first, std::min(size, all - first), solver, summaries[piece], is_stopped);
   };
   const auto make_work = [&] {
     return [&, solver = solvers_.Take()](size_t piece, absl::FunctionRef<bool()> is_stopped) {

@@ -23,10 +23,8 @@ namespace ricochet {
 // Thread safety: one thread at a time.
 class ParallelBatch {
  public:
-  // Rows that a thread takes at once.
-  static constexpr size_t kPiece = RowSolver::kBlock;
-
   // Helpers are asked once a batch has lasted for a millisecond; null stands for none.
+  ParallelBatch(CheckedBatch batch, std::shared_ptr<Helpers> helpers);
   // Errors: those of CheckBatch.
   static absl::StatusOr<std::unique_ptr<ParallelBatch>> Make(const BatchSetup& setup, std::shared_ptr<Helpers> helpers);
 
@@ -39,7 +37,7 @@ class ParallelBatch {
   absl::StatusOr<BatchSummary> Solve(const BatchRows& rows, absl::FunctionRef<bool()> stopped);
 
  private:
-  ParallelBatch(CheckedBatch batch, std::shared_ptr<Helpers> helpers);
+  size_t PieceOf(size_t rows) const;
 
   const CheckedBatch batch_;
   const std::shared_ptr<Helpers> helpers_;

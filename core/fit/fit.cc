@@ -221,10 +221,11 @@ class Fitter {
 
 }  // namespace fit
 
-absl::StatusOr<FitResponse> FitScene(const FitRequest& request, absl::FunctionRef<bool()> stopped) {
+absl::StatusOr<FitResponse> FitScene(const FitRequest& request, fit::OpenRows open_rows,
+                                     absl::FunctionRef<bool()> stopped) {
   const absl::StatusOr<fit::Problem> problem = fit::CheckFit(request);
   if (!problem.ok()) return problem.status();
-  fit::Model model(*problem, stopped);
+  fit::Model model(*problem, open_rows(problem->batch), stopped);
   if (absl::Status bad = fit::CheckStart(request, model); !bad.ok()) return bad;
   FitResponse response = fit::Fitter(*problem, model).Fit();
   if (model.is_stopped()) return absl::CancelledError("the fit was stopped by its caller");

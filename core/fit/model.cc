@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/answer/exact_derivatives.h"
-#include "core/rows/row_source.h"
 
 namespace ricochet::fit {
 namespace {
@@ -29,14 +28,15 @@ double SlopeOf(const Derivative& derivative) {
 
 }  // namespace
 
-Model::Model(const Problem& problem, absl::FunctionRef<bool()> stopped)
+Model::Model(const Problem& problem, SolveRows solve_rows, absl::FunctionRef<bool()> stopped)
     : problem_(problem),
+      solve_rows_(std::move(solve_rows)),
       stopped_(stopped),
-      solver_(problem.batch.scene, problem.batch.fields, problem.batch.columns, problem.batch.demand),
       driven_(problem.batch.scene, problem.batch.fields) {}
 
-// Solves all rows at each point one after the other, so that they share the lanes.
-bool Model::SolveAt(const std::vector<std::vector<double>>& points) {
+// Solves the rows of all points together, so that they share the lanes and the threads.
+bool Model::SolveAt(const std::vector<std::vector<double>>& points, Solved& solved) {
+  if (is_stopped_) return false;
   const size_t rows = problem_.rows;
   const size_t count = rows * points.size();
   std::vector<std::vector<double>> fields(problem_.batch.fields.size(), std::vector<double>(count));
@@ -48,26 +48,28 @@ bool Model::SolveAt(const std::vector<std::vector<double>>& points) {
       if (!is_unknown) std::copy_n(problem_.inputs[k - problem_.unknowns()].begin(), rows, fields[k].begin() + place);
     }
   }
-  const std::vector<absl::Span<const double>> arrays(fields.begin(), fields.end());
-  ArrayRows source(arrays);
-  outputs_.assign(problem_.columns(), std::vector<double>(count));
-  regimes_.resize(count);
-  bad_rows_.clear();
-  SweepSummary counts;
-  RowSink sink = {
-      .columns = {}, .regimes = absl::MakeSpan(regimes_), .statuses = {}, .counts = counts, .bad_rows = &bad_rows_};
-  for (std::vector<double>& column : outputs_) sink.columns.push_back(column.data());
-  const auto solved = is_stopped_
-                          ? std::nullopt
-                          : solver_.Solve(source, 0, static_cast<int64_t>(count), sink, stopped_, [] { return false; });
-  is_stopped_ = !solved.has_value();
+  solved.columns.assign(problem_.columns(), std::vector<double>(count));
+  solved.regimes.resize(count);
+  BatchRows batch = {.inputs = {fields.begin(), fields.end()},
+                     .outputs = {solved.columns.begin(), solved.columns.end()},
+                     .regimes = absl::MakeSpan(solved.regimes),
+                     .statuses = {}};
+  absl::StatusOr<BatchSummary> summary = solve_rows_(batch, stopped_);
+  is_stopped_ = !summary.ok();
+  if (!is_stopped_) solved.bad_rows = std::move(summary->bad_rows);
   return !is_stopped_;
 }
 
+bool Model::SolveHere(absl::Span<const double> unknowns) {
+  if (unknowns == at_) return !is_stopped_;
+  at_.assign(unknowns.begin(), unknowns.end());
+  return SolveAt({at_}, here_);
+}
+
 bool Model::Predict(absl::Span<const double> unknowns, std::vector<double>& predicted) {
-  if (!SolveAt({{unknowns.begin(), unknowns.end()}})) return false;
+  if (!SolveHere(unknowns)) return false;
   predicted.clear();
-  for (const Number& number : problem_.numbers) predicted.push_back(outputs_[number.column][number.row]);
+  for (const Number& number : problem_.numbers) predicted.push_back(here_.columns[number.column][number.row]);
   return std::all_of(predicted.begin(), predicted.end(), [](double value) { return std::isfinite(value); });
 }
 
@@ -75,7 +77,7 @@ std::optional<BadRow> Model::Bad(const std::vector<double>& predicted) const {
   for (size_t i = 0; i < predicted.size(); ++i) {
     if (std::isfinite(predicted[i])) continue;
     const auto row = static_cast<int64_t>(problem_.numbers[i].row);
-    for (const BadRow& bad : bad_rows_) {
+    for (const BadRow& bad : here_.bad_rows) {
       if (bad.row == row) return bad;
     }
     return BadRow{.row = row, .field = problem_.batch.columns[problem_.numbers[i].column], .description = ""};
@@ -124,30 +126,33 @@ bool Model::Exact(absl::Span<const double> unknowns, const std::vector<bool>& is
 
 bool Model::Sides(absl::Span<const double> unknowns, const std::vector<bool>& is_free, std::vector<double>& below,
                   std::vector<double>& above) {
-  // The first point is the place itself; each side of a free unknown is a point more.
-  std::vector<std::vector<double>> points = {{unknowns.begin(), unknowns.end()}};
+  if (!SolveHere(unknowns)) return false;
+  // Each side of a free unknown is a point.
+  std::vector<std::vector<double>> points;
   for (size_t k = 0; k < unknowns.size(); ++k) {
     if (!is_free[k]) continue;
     const double step = kStep * std::max(std::fabs(unknowns[k]), 1e-3 * problem_.scale[k]);
     for (const double side : {-step, step}) {
-      points.push_back(points.front());
+      points.push_back(at_);
       const double value = unknowns[k] + side;
       points.back()[k] = value < problem_.low[k] || value > problem_.high[k] ? kNone : value;
     }
   }
-  if (!SolveAt(points)) return false;
+  Solved beside;
+  if (!SolveAt(points, beside)) return false;
   below.assign(problem_.numbers.size() * unknowns.size(), 0.0);
   above = below;
   for (size_t i = 0; i < problem_.numbers.size(); ++i) {
     const Number& number = problem_.numbers[i];
-    const auto at = [&](size_t point) { return outputs_[number.column][point * problem_.rows + number.row]; };
-    size_t point = 1;
+    const double here = here_.columns[number.column][number.row];
+    size_t point = 0;
     for (size_t k = 0; k < unknowns.size(); ++k) {
       if (!is_free[k]) continue;
-      const size_t place = i * unknowns.size() + k;
-      below[place] = (at(point) - at(0)) / (points[point][k] - unknowns[k]);
-      above[place] = (at(point + 1) - at(0)) / (points[point + 1][k] - unknowns[k]);
-      point += 2;
+      for (std::vector<double>* const side : {&below, &above}) {
+        const double there = beside.columns[number.column][point * problem_.rows + number.row];
+        (*side)[i * unknowns.size() + k] = (there - here) / (points[point][k] - unknowns[k]);
+        ++point;
+      }
     }
   }
   return true;

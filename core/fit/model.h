@@ -9,9 +9,10 @@
 #include "absl/functional/function_ref.h"
 #include "absl/types/span.h"
 #include "core/fit/problem.h"
+#include "core/fit/solve_rows.h"
 #include "core/rows/driven_scene.h"
-#include "core/rows/row_solver.h"
 #include "ricochet/batch.h"
+#include "ricochet/regime.h"
 #include "ricochet/scene.h"
 
 namespace ricochet::fit {
@@ -20,8 +21,8 @@ namespace ricochet::fit {
 // Thread safety: one thread at a time.
 class Model {
  public:
-  // The problem must outlive this object. `stopped` is asked before each row.
-  Model(const Problem& problem, absl::FunctionRef<bool()> stopped);
+  // The problem must outlive this object. `solve_rows` solves rows of its batch.
+  Model(const Problem& problem, SolveRows solve_rows, absl::FunctionRef<bool()> stopped);
 
   const Problem& problem() const { return problem_; }
   // True once `stopped` has been; the functions below then return false.
@@ -29,7 +30,7 @@ class Model {
 
   // Sets the predicted numbers and returns true if all exist. The rows of Bad and regimes() are those of the last call.
   bool Predict(absl::Span<const double> unknowns, std::vector<double>& predicted);
-  const std::vector<Regime>& regimes() const { return regimes_; }
+  const std::vector<Regime>& regimes() const { return here_.regimes; }
   // Returns the first measured number that has no prediction, and why.
   std::optional<BadRow> Bad(const std::vector<double>& predicted) const;
 
@@ -45,18 +46,25 @@ class Model {
   const Scene& SceneOf(size_t row, absl::Span<const double> unknowns);
 
  private:
-  bool SolveAt(const std::vector<std::vector<double>>& points);
+  // All rows at each of some points, one point after the other: a column for each measured column.
+  struct Solved {
+    std::vector<std::vector<double>> columns;
+    std::vector<Regime> regimes;
+    std::vector<BadRow> bad_rows;
+  };
+
+  bool SolveAt(const std::vector<std::vector<double>>& points, Solved& solved);
+  bool SolveHere(absl::Span<const double> unknowns);
   bool Exact(absl::Span<const double> unknowns, const std::vector<bool>& is_free, std::vector<double>& derivatives);
 
   const Problem& problem_;
+  SolveRows solve_rows_;
   absl::FunctionRef<bool()> stopped_;
   bool is_stopped_ = false;
-  RowSolver solver_;
   DrivenScene driven_;
-  // The results of the last points, one after the other: a column for each measured column.
-  std::vector<std::vector<double>> outputs_;
-  std::vector<Regime> regimes_;
-  std::vector<BadRow> bad_rows_;
+  // The last point that was predicted. A search asks for the derivatives where it asked for the numbers last.
+  std::vector<double> at_;
+  Solved here_;
 };
 
 }  // namespace ricochet::fit

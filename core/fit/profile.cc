@@ -14,6 +14,8 @@ namespace {
 constexpr double kFarthest = 0x1p20;
 // An end is exact to this part of its distance, or where the root of the rise is exact to it.
 constexpr double kEndTolerance = 1e-5;
+// A search goes on beyond so many ends that were none.
+constexpr int kMostFurther = 8;
 // A better fit by no more than this is the same fit.
 constexpr double kSameFit = 1e-6;
 
@@ -41,53 +43,69 @@ class Ray {
   }
 
  private:
+  // The other unknowns follow from place to place. Where they end is no end if they can go on from elsewhere.
   RayEnd Search() {
     RayPoint inside;
-    RayPoint outside = Next(std::min(1.0, longest_));
-    while (outside.rise < rise_ && !model_.is_stopped()) {
-      inside = outside;
-      if (inside.distance >= longest_) return End(FitEndKind::kCutByBound, inside.distance);
-      if (inside.distance >= kFarthest) return End(FitEndKind::kUnbounded, inside.distance);
-      outside = Next(std::min(2.0 * inside.distance, longest_));
+    for (int further = 0;; ++further) {
+      RayPoint outside = inside;
+      while (outside.rise < rise_) {
+        inside = outside;
+        if (inside.distance >= longest_) return End(FitEndKind::kCutByBound, inside.distance);
+        if (inside.distance >= kFarthest) return End(FitEndKind::kUnbounded, inside.distance);
+        outside = Next(std::min(inside.distance > 0.0 ? 2.0 * inside.distance : 1.0, longest_));
+      }
+      const RayEnd end = Narrow(inside, outside);
+      if (further == kMostFurther || !GoesOn(outside, inside)) return end;
     }
-    return Narrow(inside, outside);
   }
 
   static RayEnd End(FitEndKind kind, double distance) { return {.kind = kind, .distance = distance}; }
 
-  // The other unknowns start where they ended last, and at the best fit. Numbers of which a product or a quotient alone
-  // is measured move by the factor of the one that is held, or by its inverse.
-  RayPoint Next(double distance) {
+  // The unknowns that are held at a distance, and the others as far as they stay in their bounds.
+  std::vector<double> StartAt(double distance, const std::vector<double>& from, double factor) const {
     const auto [low, high] = std::tie(model_.problem().low, model_.problem().high);
-    double factor = 1.0;
-    std::vector<double> held = best_.at;
-    for (size_t k = 0; k < held.size(); ++k) {
-      if (is_free_[k]) continue;
-      held[k] = std::clamp(best_.at[k] + distance * step_[k], low[k], high[k]);
-      if (last_[k] != 0.0) factor = held[k] / last_[k];
+    std::vector<double> start = best_.at;
+    for (size_t k = 0; k < start.size(); ++k) {
+      start[k] = std::clamp(is_free_[k] ? factor * from[k] : start[k] + distance * step_[k], low[k], high[k]);
     }
-    Minimum least;
-    least.objective = std::numeric_limits<double>::infinity();
-    for (const auto& [from, by] :
-         {std::pair(last_, 1.0), std::pair(best_.at, 1.0), std::pair(last_, factor), std::pair(last_, 1.0 / factor)}) {
-      std::vector<double> start = from;
-      for (size_t k = 0; k < start.size(); ++k) {
-        start[k] = is_free_[k] ? std::clamp(by * start[k], low[k], high[k]) : held[k];
-      }
-      Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
-      if (found.objective < least.objective) least = std::move(found);
-      if (least.objective - best_.objective < rise_) break;
-      if (from == best_.at && !std::isfinite(least.objective)) break;  // Beyond a rule of the scene, and not a valley.
-    }
+    return start;
+  }
+
+  RayPoint Adopt(double distance, const Minimum& least) {
     if (std::isfinite(least.objective)) last_ = least.at;
     if (least.objective < best_.objective - kSameFit && !end_.better.has_value()) end_.better = least;
     end_.computed.push_back({distance, least.objective - best_.objective});
     return end_.computed.back();
   }
 
+  // The other unknowns start where they ended last.
+  RayPoint Next(double distance) {
+    return Adopt(distance, Minimize(StartAt(distance, last_, 1.0), is_free_, kCoarseSearch, model_));
+  }
+
+  // Sees whether a place outside is inside if the other unknowns start at the best fit, or move by the factor of the
+  // one that is held, or by its inverse, as numbers do of which a product or a quotient alone is measured. If so, it is
+  // the new place inside.
+  bool GoesOn(const RayPoint& outside, RayPoint& inside) {
+    double factor = 1.0;
+    const std::vector<double> held = StartAt(outside.distance, best_.at, 1.0);
+    for (size_t k = 0; k < held.size(); ++k) {
+      if (!is_free_[k] && best_.at[k] != 0.0) factor = held[k] / best_.at[k];
+    }
+    for (const double by : {1.0, factor, 1.0 / factor}) {
+      const Minimum found = Minimize(StartAt(outside.distance, best_.at, by), is_free_, kCoarseSearch, model_);
+      if (found.objective - best_.objective < rise_) {
+        inside = Adopt(outside.distance, found);
+        return true;
+      }
+      if (!std::isfinite(found.objective)) break;  // Beyond a rule of the scene, and not a valley.
+    }
+    return false;
+  }
+
   // Closes in on the end between a place inside and one outside. The root of the rise is nearly straight, so that the
   // next place is where a line through both meets that of the end; every third is the middle.
-  RayEnd Narrow(RayPoint inside, RayPoint outside) {
+  RayEnd Narrow(RayPoint& inside, RayPoint& outside) {
     const double target = std::sqrt(rise_);
     const auto root = [](const RayPoint& point) { return std::sqrt(std::max(point.rise, 0.0)); };
     for (int i = 0; i < 80 && !model_.is_stopped(); ++i) {

@@ -66,7 +66,7 @@ class Residuals : public Eigen::DenseFunctor<double> {
   // Where an impact has no such number, residuals are so large that the search turns back.
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const {
     constexpr double kTurnsBack = 1e100;
-    if (!PredictAt(x)) {
+    if (!model_.Predict(Unknowns(x), predicted_)) {
       residuals.setConstant(kTurnsBack);
       return 0;
     }
@@ -79,7 +79,7 @@ class Residuals : public Eigen::DenseFunctor<double> {
     std::vector<double> derivatives;
     slopes.setZero(values(), inputs());
     // A fit that was stopped has no slopes, so that the search ends at once.
-    if (!PredictAt(x) || !model_.Differentiate(at, is_free_, derivatives)) return 0;
+    if (!model_.Predict(at, predicted_) || !model_.Differentiate(at, is_free_, derivatives)) return 0;
     for (Index j = 0; j < slopes.cols(); ++j) {
       const size_t k = Free(j);
       if (IsBeyond(x[j] * problem_.scale[k], k)) continue;
@@ -94,13 +94,6 @@ class Residuals : public Eigen::DenseFunctor<double> {
  private:
   size_t Free(Index i) const { return free_[static_cast<size_t>(i)]; }
   const fit::Number& Number(Index i) const { return problem_.numbers[static_cast<size_t>(i)]; }
-  // Predicts the numbers at x. The search asks for the slopes where it asked for the residuals last.
-  bool PredictAt(const Eigen::VectorXd& x) const {
-    if (predicted_at_.size() == x.size() && predicted_at_ == x) return is_predicted_;
-    predicted_at_ = x;
-    is_predicted_ = model_.Predict(Unknowns(x), predicted_);
-    return is_predicted_;
-  }
   Costed CostedAt(Index i) const { return CostOf(problem_, Number(i).Residual(predicted_[static_cast<size_t>(i)])); }
   bool IsBeyond(double value, size_t k) const { return value < problem_.low[k] || value > problem_.high[k]; }
 
@@ -109,9 +102,7 @@ class Residuals : public Eigen::DenseFunctor<double> {
   const std::vector<double>& start_;
   const std::vector<size_t>& free_;
   std::vector<bool> is_free_;
-  mutable Eigen::VectorXd predicted_at_;
   mutable std::vector<double> predicted_;
-  mutable bool is_predicted_ = false;
 };
 
 double ObjectiveAt(const std::vector<double>& at, Model& model) {
@@ -126,7 +117,7 @@ double ObjectiveAt(const std::vector<double>& at, Model& model) {
 }
 
 // One search from the minimum so far, to which it sets what it finds if that is better. Returns true if it is better by
-// more than the tolerance.
+// more than the tolerance, and lies at a bound.
 bool Search(const std::vector<size_t>& free, double tolerance, Model& model, Minimum& minimum) {
   const std::vector<double> start = minimum.at;
   const double before = minimum.objective;
@@ -146,7 +137,11 @@ bool Search(const std::vector<size_t>& free, double tolerance, Model& model, Min
   if (!(objective <= before)) return false;
   minimum.at = end;
   minimum.objective = objective;
-  return before - objective > tolerance * before;
+  const Problem& problem = model.problem();
+  const bool is_at_bound = std::any_of(free.begin(), free.end(), [&problem, &end](size_t k) {
+    return end[k] == problem.low[k] || end[k] == problem.high[k];
+  });
+  return is_at_bound && before - objective > tolerance * before;
 }
 
 }  // namespace

@@ -58,6 +58,9 @@ class RowSolver {
   RowSolver(const RowSolver&) = delete;
   RowSolver& operator=(const RowSolver&) = delete;
 
+  // True if SIMD lanes give all columns, so that a row takes well below a microsecond.
+  bool is_in_lanes() const { return lanes_ != nullptr && derivatives_.empty(); }
+
   // Solves the rows [first, first + count), or fewer if `is_enough` says so, and returns how many they are; or nothing
   // once `stopped` returns true. Both functions are asked before each kRowsBetweenStops rows in SIMD lanes and before
   // each row that goes by its scene, but `is_enough` once a block for systems in space, and not before the first row.

@@ -245,6 +245,33 @@ void CompareThreads() {
   };
   compare_batch("batch of 10^6 planar contacts", 1.7, Contacts(1'000'000, 1e-12));
   compare_batch("batch of 20,000 planar contacts on a spring", 1.9, ContactsOnSprings(20'000));
+  compare_batch("batch of 64 planar contacts on a spring", 1.7, ContactsOnSprings(64));
+}
+
+// Measures a fit of two numbers to impacts that are followed in time, which has no exact derivatives, against one
+// solution of its rows.
+void RunFit(const Solver& local) {
+  Batch batch = ContactsOnSprings(8);
+  const auto solve = [&] {
+    if (!local.OpenBatches(batch.setup)->Solve(batch.Rows()).ok()) std::abort();
+  };
+  solve();
+  FitRequest request = {.scene = batch.setup.scene,
+                        .unknowns = {{.path = "compliance.linear.stiffness_n_m", .start = 8e4},
+                                     {.path = "restitution.energetic", .start = 0.4}}};
+  for (size_t k = 0; k < batch.in.size(); ++k) request.inputs.push_back({batch.setup.fields[k], batch.in[k]});
+  for (size_t c = 0; c < batch.out.size(); ++c) {
+    std::vector<double> values = batch.out[c];
+    for (size_t row = 0; row < values.size(); ++row) values[row] *= 1.0 + 0.01 * Spread(row, 1.3);
+    const double sigma = 0.01 * *std::max_element(values.begin(), values.end());
+    request.measured.push_back({batch.setup.columns[c], std::move(values), {sigma}});
+  }
+  const auto fit = [&] {
+    if (!local.Fit(request).ok()) std::abort();
+  };
+  const Comparison compared = Compare(3, fit, solve);
+  Print("A fit of two numbers to 8 impacts in time", absl::StrFormat("%.0f ms", compared.seconds_a * 1e3),
+        absl::StrFormat("%.0f times the time of its rows", compared.ratio));
 }
 
 struct Solvers {
@@ -281,6 +308,7 @@ int main() {
   const Solvers solvers = {.remote = *client};
   RunAgainstLanes(solvers.one_thread, 1e-12);
   RunWithDerivatives(solvers.one_thread);
+  RunFit(solvers.one_thread);
   CompareThreads();
   Run("Planar contacts", solvers, Contacts, 1e-12);
   Run("Planar contacts", solvers, Contacts, 1e-6);

@@ -90,11 +90,31 @@ TEST(ParallelBatchTest, RowsAndSummaryAreTheSameWhateverTheNumberOfThreads) {
 
 TEST(ParallelBatchTest, AShortBatchIsComputedByItsCallerAlone) {
   const auto threads = std::make_shared<CountedThreads>(3);
-  Batch batch(Systems().back(), 100);
+  Batch batch(Systems().back(), 4);
   const auto parallel = ParallelBatch::Make(batch.setup, threads);
   ASSERT_TRUE(parallel.ok());
   ASSERT_TRUE((*parallel)->Solve(batch.Rows(), [] { return false; }).ok());
   EXPECT_EQ(threads->started(), 0);
+}
+
+// A row that is followed in time takes a good part of a millisecond.
+TEST(ParallelBatchTest, AFewRowsThatTakeLongAreShared) {
+  const auto make = [] {
+    Batch batch(PlanarContact{3.5, 0.3, 1.0, 1.0, -1.0}, 60);
+    batch.setup.scene.compliance = Compliance{.normal = LinearSpring{1e6}};
+    batch.setup.columns = {"contact_velocity_after.normal_m_s", "contact.duration_s"};
+    batch.out.resize(batch.setup.columns.size());
+    return batch;
+  };
+  Batch alone = make();
+  const auto run = ParallelBatch::Make(alone.setup, nullptr);
+  ASSERT_TRUE(run.ok()) << run.status();
+  ASSERT_TRUE((*run)->Solve(alone.Rows(), [] { return false; }).ok());
+  const auto threads = std::make_shared<CountedThreads>(3);
+  Batch together = make();
+  ASSERT_TRUE((*ParallelBatch::Make(together.setup, threads))->Solve(together.Rows(), [] { return false; }).ok());
+  EXPECT_GT(threads->started(), 0);
+  EXPECT_EQ(together.Bits(), alone.Bits());
 }
 
 TEST(ParallelBatchTest, AStopEndsHelpersToo) {

@@ -17,9 +17,9 @@
 #include "core/answer/scene_enclosure.h"
 #include "core/answer/scene_outcome.h"
 #include "core/certified/certified.h"
-#include "core/fit/fit.h"
 #include "core/multi/solve_multi_contact.h"
 #include "ricochet/solver.h"
+#include "tests/core/fit/fit_cases.h"
 #include "tests/support/scenes/multi_contact_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
 
@@ -231,7 +231,7 @@ std::vector<AskingWork> AskingWorks() {
              .inputs = {{.path = "planar_contact.normal_m_s", .values = {-1.0, -2.0, -3.0}}},
              .measured = {{.path = "contact_velocity_after.normal_m_s", .values = {0.5, 1.1, 1.4}, .sigma = {0.1}}},
              .starts = 3};
-         return FitScene(request, stopped).status();
+         return fit::Fit(request, stopped).status();
        }},
   };
 }

@@ -24,7 +24,7 @@ TEST(CoverageTest, IntervalsCoverTheTruthInNinetyFivePercent) {
     for (FitMeasured& measured : request.measured) {
       for (double& value : measured.values) value += measured.sigma[0] * normal(random);
     }
-    const absl::StatusOr<FitResponse> response = FitScene(request, [] { return false; });
+    const absl::StatusOr<FitResponse> response = Fit(request, [] { return false; });
     ASSERT_TRUE(response.ok()) << response.status();
     refused += static_cast<int>(response->refused);
     for (size_t k = 0; k < covered.size(); ++k) {
@@ -57,7 +57,7 @@ TEST(CoverageTest, ManyGoodRowsDoNotRefuseThePhysics) {
     for (FitMeasured& measured : request.measured) {
       for (double& value : measured.values) value += measured.sigma[0] * normal(random);
     }
-    const absl::StatusOr<FitResponse> response = FitScene(request, [] { return false; });
+    const absl::StatusOr<FitResponse> response = Fit(request, [] { return false; });
     ASSERT_TRUE(response.ok()) << response.status();
     broken += static_cast<int>(std::any_of(response->rows.begin(), response->rows.end(),
                                            [](const FitRow& r) { return !r.broken_limits.empty(); }));

@@ -27,7 +27,7 @@ class Errors : public testing::TestWithParam<Wrong> {};
 TEST_P(Errors, IsNamed) {
   FitRequest request = Noiseless(ContactCase());
   GetParam().spoil(request);
-  const absl::Status status = FitScene(request, [] { return false; }).status();
+  const absl::Status status = Fit(request, [] { return false; }).status();
   ASSERT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
   const std::vector<Violation> violations = ViolationsOf(status);
   ASSERT_FALSE(violations.empty());

@@ -31,7 +31,7 @@ bool HasNote(const FitResponse& response, const std::string& text) {
 class Recovery : public testing::TestWithParam<Case> {};
 
 TEST_P(Recovery, NoiselessDataGiveTheTruth) {
-  const absl::StatusOr<FitResponse> response = FitScene(Noiseless(GetParam()), Never);
+  const absl::StatusOr<FitResponse> response = Fit(Noiseless(GetParam()), Never);
   ASSERT_TRUE(response.ok()) << response.status();
   for (size_t k = 0; k < GetParam().true_values.size(); ++k) {
     const FitEstimate& estimate = response->unknowns[k];
@@ -53,8 +53,8 @@ INSTANTIATE_TEST_SUITE_P(Systems, Recovery,
                          [](const auto& given) { return given.param.name; });
 
 TEST(FitTest, SaysWhichDerivativesItUsed) {
-  EXPECT_TRUE(FitScene(Noiseless(ContactCase()), Never)->exact_derivatives);
-  const FitResponse space = *FitScene(Noiseless(SpaceCase()), Never);
+  EXPECT_TRUE(Fit(Noiseless(ContactCase()), Never)->exact_derivatives);
+  const FitResponse space = *Fit(Noiseless(SpaceCase()), Never);
   EXPECT_FALSE(space.exact_derivatives);
   EXPECT_THAT(space.why_differences, HasSubstr("impact in space"));
   EXPECT_TRUE(HasNote(space, "central differences"));
@@ -68,7 +68,7 @@ TEST(FitTest, FrictionOfRowsThatStickHasNoFiniteInterval) {
   sticking.inputs[0].values = {0.1, 0.15, 0.2, 0.1, 0.2, 0.1};
   for (const bool bounded : {false, true}) {
     if (bounded) sticking.unknowns[0].high = 5.0;
-    const FitResponse response = *FitScene(Noiseless(sticking), Never);
+    const FitResponse response = *Fit(Noiseless(sticking), Never);
     const FitEstimate& friction = response.unknowns[0];
     EXPECT_FALSE(friction.seen);
     EXPECT_FALSE(friction.sigma.has_value());
@@ -89,7 +89,7 @@ TEST(FitTest, AnUnknownThatNoNumberDependsOnHasNoEnds) {
   given.truth.friction.static_coefficient = 0.5;
   given.unknowns[0].start = 0.06;
   given.inputs[0].values = {3.0, 3.5, 4.0, 5.0, 6.0, 7.0};
-  const FitResponse response = *FitScene(Noiseless(given), Never);
+  const FitResponse response = *Fit(Noiseless(given), Never);
   EXPECT_FALSE(response.unknowns[2].seen);
   EXPECT_EQ(response.unknowns[2].high.kind, FitEndKind::kNotSeen);
   EXPECT_FALSE(response.unknowns[2].high.value.has_value());
@@ -102,7 +102,7 @@ TEST(FitTest, AProductIsNotSeenByItsFactors) {
   std::get<PlanarContact>(given.truth.system).w_tn_per_kg = 0.0;
   given.inputs[0].values = {3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
   given.measured.pop_back();
-  const FitResponse response = *FitScene(Noiseless(given), Never);
+  const FitResponse response = *Fit(Noiseless(given), Never);
   EXPECT_FALSE(response.unknowns[0].seen);
   EXPECT_FALSE(response.unknowns[1].seen);
   EXPECT_EQ(response.degrees_of_freedom, 5);
@@ -112,24 +112,24 @@ TEST(FitTest, AProductIsNotSeenByItsFactors) {
 TEST(FitTest, NamesAnOutlierAndRefusesTheData) {
   FitRequest request = Noiseless(ContactCase());
   request.measured[1].values[3] += 0.2;
-  const FitResponse squares = *FitScene(request, Never);
+  const FitResponse squares = *Fit(request, Never);
   ASSERT_FALSE(squares.outliers.empty());
   EXPECT_EQ(squares.outliers[0].row, 3);
   EXPECT_TRUE(squares.refused);
   EXPECT_TRUE(HasNote(squares, "refuse the physics"));
   request.loss = FitLoss::kCauchy;
-  const FitResponse robust = *FitScene(request, Never);
+  const FitResponse robust = *Fit(request, Never);
   ASSERT_EQ(robust.outliers.size(), 1);
   EXPECT_NEAR(robust.unknowns[1].value, 0.6, 0.003);
   EXPECT_GT(std::fabs(squares.unknowns[1].value - 0.6), 0.01);
   request.loss = FitLoss::kHuber;
-  EXPECT_NEAR(FitScene(request, Never)->unknowns[1].value, 0.6, 0.01);
+  EXPECT_NEAR(Fit(request, Never)->unknowns[1].value, 0.6, 0.01);
 }
 
 TEST(FitTest, ARowThatBreaksALimitRefusesThePhysics) {
   FitRequest request = Noiseless(ContactCase());
   request.measured[1].values[2] = 1.9;  // It rebounds faster than it came.
-  const FitResponse response = *FitScene(request, Never);
+  const FitResponse response = *Fit(request, Never);
   EXPECT_FALSE(response.rows[2].broken_limits.empty());
   EXPECT_TRUE(response.refused);
   EXPECT_TRUE(HasNote(response, "Row 2 breaks"));
@@ -138,7 +138,7 @@ TEST(FitTest, ARowThatBreaksALimitRefusesThePhysics) {
 TEST(FitTest, ARateOfAPendulumIsAuditedToo) {
   FitRequest request = Noiseless(PendulumCase());
   request.measured[0].values[1] = 2.5;
-  EXPECT_TRUE(HasNote(*FitScene(request, Never), "Row 1 breaks"));
+  EXPECT_TRUE(HasNote(*Fit(request, Never), "Row 1 breaks"));
 }
 
 // The first search ends in the wrong valley, beyond the centre; its profile finds the other.
@@ -154,7 +154,7 @@ TEST(FitTest, AProfileThatFindsABetterFitStartsAgainFromThere) {
   const Outcome truth = LocalSolver().Solve({.scene = request.scene})->outcome;
   request.measured[0].values = {truth.bodies_after[0].linear_m_s[1]};
   request.measured[1].values = {-truth.bodies_after[0].angular_rad_s[0]};
-  const FitResponse response = *FitScene(request, Never);
+  const FitResponse response = *Fit(request, Never);
   EXPECT_LT(response.unknowns[0].value, 0.0);
   EXPECT_GT(response.starts[0].objective, response.objective);
 }
@@ -162,7 +162,7 @@ TEST(FitTest, AProfileThatFindsABetterFitStartsAgainFromThere) {
 TEST(FitTest, AnIntervalIsCutByItsBound) {
   FitRequest request = Noiseless(ContactCase());
   request.unknowns[1].low = 0.5999;
-  const FitResponse response = *FitScene(request, Never);
+  const FitResponse response = *Fit(request, Never);
   EXPECT_EQ(response.unknowns[1].low.kind, FitEndKind::kCutByBound);
   EXPECT_EQ(response.unknowns[1].low.value, 0.5999);
   EXPECT_TRUE(HasNote(response, "lower end of the interval of restitution.poisson is cut by a bound"));
@@ -171,7 +171,7 @@ TEST(FitTest, AnIntervalIsCutByItsBound) {
 TEST(FitTest, NumbersThatWereNotMeasuredAreLeftOut) {
   FitRequest request = Noiseless(ContactCase());
   request.measured[0].values[1] = std::nan("");
-  const FitResponse response = *FitScene(request, Never);
+  const FitResponse response = *Fit(request, Never);
   EXPECT_EQ(response.degrees_of_freedom, 9);
   EXPECT_TRUE(std::isnan(response.rows[1].residuals[0]));
   EXPECT_TRUE(std::isnan(response.rows[1].predicted[0]));
@@ -186,7 +186,7 @@ TEST(FitTest, SaysThatTheBestFitLiesOnAThreshold) {
                         .measured = {{"contact_velocity_after.tangential_m_s[0]", {0.0}, {0.01}}}};
   auto& contact = std::get<PlanarContact>(request.scene.system);
   contact.w_tn_per_kg = 0.0;
-  const FitResponse response = *FitScene(request, Never);
+  const FitResponse response = *Fit(request, Never);
   // mu w_tt (1 + e) |v|/w_nn = u: slip stops as the impact ends.
   EXPECT_NEAR(response.unknowns[0].value, 2.0 / (3.0 * 1.6), 1e-6);
   ASSERT_EQ(response.thresholds.size(), 1);
@@ -201,7 +201,7 @@ TEST(FitTest, FurtherStartsSpreadOverTheBounds) {
   request.unknowns[0].high = 1.0;
   request.unknowns[1].high = 1.0;
   request.starts = 8;
-  const FitResponse response = *FitScene(request, Never);
+  const FitResponse response = *Fit(request, Never);
   ASSERT_EQ(response.starts.size(), 8);
   for (const FitStart& start : response.starts) {
     for (size_t k = 0; k < 2; ++k) EXPECT_TRUE(start.from[k] >= 0.0 && start.from[k] <= 1.0);
@@ -215,7 +215,7 @@ TEST(FitTest, DataAreNotRefusedBeforeFurtherStarts) {
   Case given = ContactCase();
   given.unknowns[0].start = 5.0;
   FitRequest request = Noiseless(given);
-  const FitResponse response = *FitScene(request, Never);
+  const FitResponse response = *Fit(request, Never);
   EXPECT_GT(response.starts.size(), 1);
   EXPECT_FALSE(response.refused);
   EXPECT_TRUE(response.unknowns[0].seen);
@@ -225,7 +225,7 @@ TEST(FitTest, DataAreNotRefusedBeforeFurtherStarts) {
 TEST(FitTest, WhatIsSeenDoesNotDependOnTheSizeOfTheStart) {
   Case given = ContactCase();
   given.unknowns[0].start = 1e-9;
-  const FitResponse response = *FitScene(Noiseless(given), Never);
+  const FitResponse response = *Fit(Noiseless(given), Never);
   EXPECT_NEAR(response.unknowns[0].value, given.truth.friction.kinetic_coefficient, 1e-8);
   EXPECT_TRUE(response.unknowns[0].seen);
   EXPECT_TRUE(response.unknowns[0].sigma.has_value());
@@ -241,7 +241,7 @@ TEST(FitTest, SaysThatStartsEndedInDifferentPlaces) {
   given.measured = {{"bodies_after[0].linear_m_s[1]", 0.01}};
   FitRequest request = Noiseless(given);
   request.starts = 6;
-  const FitResponse response = *FitScene(request, Never);
+  const FitResponse response = *Fit(request, Never);
   EXPECT_NEAR(std::fabs(response.unknowns[0].value), 0.1, 1e-8);
   EXPECT_TRUE(response.starts_differ);
   EXPECT_TRUE(HasNote(response, "ended in different places"));
@@ -250,7 +250,7 @@ TEST(FitTest, SaysThatStartsEndedInDifferentPlaces) {
 TEST(FitTest, TheRegionOfTwoSurroundsTheBestFit) {
   FitRequest request = Noiseless(ContactCase());
   request.region = {"friction.kinetic_coefficient", "restitution.poisson"};
-  const FitResponse response = *FitScene(request, Never);
+  const FitResponse response = *Fit(request, Never);
   ASSERT_EQ(response.region.size(), 48);
   for (const FitRegionPoint& point : response.region) EXPECT_EQ(point.kind, FitEndKind::kFound);
   EXPECT_GT(response.region[0].x, *response.unknowns[0].high.value);  // Two degrees of freedom reach further than one.
@@ -259,7 +259,7 @@ TEST(FitTest, TheRegionOfTwoSurroundsTheBestFit) {
 TEST(FitTest, AStopEndsIt) {
   int questions = 0;
   const auto stop = [&questions] { return ++questions > 20; };
-  EXPECT_EQ(FitScene(Noiseless(CompliantCase()), stop).status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(Fit(Noiseless(CompliantCase()), stop).status().code(), absl::StatusCode::kCancelled);
 }
 
 TEST(FitTest, ADeadlineEndsIt) {
