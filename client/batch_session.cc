@@ -1,5 +1,6 @@
 #include "client/batch_session.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "proto/wire/batch.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/status.h"
+#include "ricochet/error.h"
 
 namespace ricochet {
 namespace {
@@ -28,13 +30,22 @@ size_t RowsOfAPiece(const BatchSetup& setup) {
   return std::max(kPieceBytes / (columns * sizeof(double)), size_t{1});
 }
 
-RemoteBatches::RemoteBatches(const BatchSetup& setup, Start start, PreferredServer& servers, const RetryPolicy& policy,
-                             CallOptions options)
+size_t RowsOfAPiece(const BatchSetup& setup, const Limits& limits) {
+  const auto columns = static_cast<int64_t>(std::max({setup.fields.size(), setup.columns.size(), size_t{1}}));
+  // The first message of a call has the setup beside its columns.
+  constexpr int64_t kBytesOfSetup = 4096;
+  const int64_t by_bytes = (limits.max_request_bytes - kBytesOfSetup) / static_cast<int64_t>(sizeof(double)) / columns;
+  return static_cast<size_t>(std::max<int64_t>(std::min(limits.max_batch_numbers / columns, by_bytes), 1));
+}
+
+RemoteBatches::RemoteBatches(const BatchSetup& setup, Start start, AskMostRows ask_most_rows, PreferredServer& servers,
+                             const RetryPolicy& policy, CallOptions options)
     : setup_(ToProto(setup)),
       fields_(setup.fields.size()),
       columns_(setup.columns.size()),
       piece_(RowsOfAPiece(setup)),
       start_(std::move(start)),
+      ask_most_rows_(std::move(ask_most_rows)),
       servers_(servers),
       policy_(policy),
       options_(std::move(options)) {}
@@ -47,12 +58,22 @@ absl::StatusOr<BatchSummary> RemoteBatches::Solve(const BatchRows& rows) {
     const absl::Status status = Exchange(remaining, attempts);
     if (status.ok()) return remaining.summary;
     if (IsStopped(options_)) return StoppedByCaller();
+    if (MakePiecesSmaller(status)) continue;
     const int most = std::max(policy_.max_attempts, static_cast<int>(servers_.count())) - 1;
     const auto wait = MayResume(status) ? attempts.AfterFailure(status, most) : std::nullopt;
     if (!wait.has_value() || !Pause(*wait, options_)) {
       return IsStopped(options_) ? StoppedByCaller() : ExplainFailure(status);
     }
   }
+}
+
+// Returns true if the server takes smaller pieces than that which it has refused.
+bool RemoteBatches::MakePiecesSmaller(const absl::Status& status) {
+  if (ReasonOf(status) != ErrorReason::kLimitExceeded) return false;
+  const absl::StatusOr<size_t> most = ask_most_rows_();
+  if (!most.ok() || *most >= piece_) return false;
+  piece_ = *most;
+  return true;
 }
 
 RemoteBatches::~RemoteBatches() {

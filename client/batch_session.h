@@ -22,6 +22,7 @@
 #include "ricochet/batch.h"
 #include "ricochet/call_options.h"
 #include "ricochet/client_options.h"
+#include "ricochet/limits.h"
 #include "ricochet/v1/batch.pb.h"
 
 namespace ricochet {
@@ -29,6 +30,8 @@ namespace ricochet {
 // The most rows of one message: so many that its columns, in or out, take a mebibyte. Servers take more, but smaller
 // pieces keep the memory of both sides small.
 size_t RowsOfAPiece(const BatchSetup& setup);
+// The most rows of one message to a server that has these limits, at least one.
+size_t RowsOfAPiece(const BatchSetup& setup, const Limits& limits);
 
 class RemoteBatches final : public BatchSession::Worker {
  public:
@@ -36,9 +39,12 @@ class RemoteBatches final : public BatchSession::Worker {
   // Starts a call of the server with this number.
   using Start = std::function<std::unique_ptr<Stream>(size_t server, grpc::ClientContext* context)>;
 
+  // Asks a server for the most rows of one message.
+  using AskMostRows = std::function<absl::StatusOr<size_t>()>;
+
   // `servers` must outlive this object.
-  RemoteBatches(const BatchSetup& setup, Start start, PreferredServer& servers, const RetryPolicy& policy,
-                CallOptions options);
+  RemoteBatches(const BatchSetup& setup, Start start, AskMostRows ask_most_rows, PreferredServer& servers,
+                const RetryPolicy& policy, CallOptions options);
   ~RemoteBatches() override;
 
   absl::StatusOr<BatchSummary> Solve(const BatchRows& rows) override;
@@ -66,6 +72,7 @@ class RemoteBatches final : public BatchSession::Worker {
   size_t PieceAt(size_t first, size_t end) const { return std::min(piece_, end - first); }
   bool Write(const BatchRows& rows, size_t first, size_t count);
   absl::Status Exchange(Remaining& remaining, Attempts& attempts);
+  bool MakePiecesSmaller(const absl::Status& status);
   absl::Status ReadAnswer(Remaining& remaining);
   // Ends the call and returns its status.
   absl::Status End();
@@ -73,8 +80,9 @@ class RemoteBatches final : public BatchSession::Worker {
   const v1::BatchSetup setup_;
   const size_t fields_;
   const size_t columns_;
-  const size_t piece_;
+  size_t piece_;  // Rows of a message.
   const Start start_;
+  const AskMostRows ask_most_rows_;
   PreferredServer& servers_;
   const RetryPolicy policy_;
   const CallOptions options_;

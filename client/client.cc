@@ -169,8 +169,13 @@ absl::StatusOr<BatchSession> Client::DoOpenBatches(const BatchSetup& setup, cons
   auto start = [connection = connection_](size_t server, grpc::ClientContext* context) {
     return connection->stubs[server]->SolveBatches(context);
   };
-  return BatchSession(std::make_unique<RemoteBatches>(setup, std::move(start), connection_->preferred,
-                                                      connection_->options.retry, options));
+  auto ask_most_rows = [connection = connection_, setup, options]() -> absl::StatusOr<size_t> {
+    const absl::StatusOr<InfoResponse> info = connection->Ask(&Stub::Info, InfoRequest(), options);
+    if (!info.ok()) return info.status();
+    return RowsOfAPiece(setup, info->limits);
+  };
+  return BatchSession(std::make_unique<RemoteBatches>(setup, std::move(start), std::move(ask_most_rows),
+                                                      connection_->preferred, connection_->options.retry, options));
 }
 
 absl::StatusOr<BatchResponse> Client::DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
@@ -182,6 +187,9 @@ absl::StatusOr<BatchResponse> Client::DoSolveBatch(const BatchSetup& setup, cons
   *request.mutable_setup() = ToProto(setup);
   SetInputs(rows, 0, count, request);
   const absl::StatusOr<v1::SolveBatchResponse> response = connection_->AskWire(&Stub::SolveBatch, request, options);
+  if (count > 1 && ReasonOf(response.status()) == ErrorReason::kLimitExceeded) {
+    return SolveInPieces(setup, rows, options);
+  }
   if (!response.ok()) return response.status();
   if (absl::Status misfit = CopyOutputs(*response, 0, count, rows); !misfit.ok()) return misfit;
   return BatchResponse{.summary = FromProto(response->summary()), .engine = FromProto(response->engine())};

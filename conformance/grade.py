@@ -103,6 +103,9 @@ def read_json(text, path, cases):
         refuse(f'{path}.simulator: must be a text')
     if not isinstance(whole.get('answers'), list):
         refuse(f'{path}.answers: must be a list')
+    general = whole.get('law', '')
+    if not isinstance(general, str) or (general and general not in LAWS):
+        refuse(f'{path}.law = {general}: must be {", ".join(LAWS)}')
     answers = {}
     for i, entry in enumerate(whole['answers']):
         if not isinstance(entry, dict):
@@ -112,7 +115,7 @@ def read_json(text, path, cases):
         if not isinstance(velocity, list) or not all(isinstance(x, float) for x in velocity):
             refuse(f'answers[{i}].velocity_after: must be a list of numbers')
         law = entry.get('law', '')
-        add_answer(f'answers[{i}]', entry.get('case', ''), whole.get('law', '') if law == '' else law, velocity, cases, answers)
+        add_answer(f'answers[{i}]', entry.get('case', ''), general if law == '' else law, velocity, cases, answers)
     return whole.get('simulator', ''), answers
 
 
@@ -170,7 +173,8 @@ def read_answers(path, cases):
 
 
 def check(value, excess, allowance):
-    return {'value': float(value), 'excess': float(excess), 'broken': bool(excess > allowance)}
+    # An excess that overflows breaks the limit.
+    return {'value': float(value), 'excess': float(excess), 'broken': bool(excess > allowance or not np.isfinite(excess))}
 
 
 def least_squares(a, b):
@@ -210,6 +214,7 @@ def outside_cones(case, change):
     return np.linalg.solve(root.T, least)
 
 
+@np.errstate(over='ignore', invalid='ignore')
 def limits_of(case, after, tolerance):
     moving, change = after - case.frame, after - case.before
     momentum = case.mass @ moving
@@ -250,6 +255,12 @@ def commonest_law(cases, answers, tolerance):
 # --- The report ---
 
 LAW_TEXT = {'newton': "Newton's law", 'poisson': "Poisson's law", 'energetic': 'the energetic law'}
+
+
+def finite(grade):
+    """The grade as JSON can have it: numbers that overflow are left out."""
+    return {name: {key: None if isinstance(x, float) and not math.isfinite(x) else x for key, x in part.items()}
+            if isinstance(part, dict) else part for name, part in grade.items()}
 
 
 def rounded(value):
@@ -340,7 +351,7 @@ def main():
     if options.json:
         print(json.dumps({'simulator': simulator, 'version': whole['version'], 'fingerprint': whole['fingerprint'],
                           'tolerance': options.tolerance, 'law': general, 'right_cases': right,
-                          'cases': [{'case': case.name, 'family': case.family, 'answered': bool(grade), **(grade or {}),
+                          'cases': [{'case': case.name, 'family': case.family, 'answered': bool(grade), **finite(grade or {}),
                                      'complaint': complaint(case, grade)} for case, grade in graded]}, indent=2))
     else:
         origin = (f"The cases are version {whole['version']}, {whole['fingerprint'][:16]}. Errors are in m/s or rad/s. At several "

@@ -351,6 +351,25 @@ void CheckTls(const Options& options, std::vector<std::string>& violations) {
   }
 }
 
+// A limit that another one never lets be reached is a mistake.
+void CheckLimitsFit(const Options& options, std::vector<std::string>& violations) {
+  const struct {
+    const char* part;
+    int limit;
+    const char* whole;
+    int most;
+  } pairs[] = {
+      {"max-live-calls-per-peer", options.live_calls.calls_per_peer, "max-live-calls", options.live_calls.calls},
+      {"max-streams", options.live_calls.streams, "max-live-calls", options.live_calls.calls},
+      {"max-streams-per-peer", options.live_calls.streams_per_peer, "max-streams", options.live_calls.streams},
+      {"max-connections-per-peer", options.connections.per_peer, "max-connections", options.connections.in_all},
+  };
+  for (const auto& [part, limit, whole, most] : pairs) {
+    if (limit <= most) continue;
+    violations.push_back(Violated(part, absl::StrCat(limit), absl::StrCat("must be <= ", most, ", that of --", whole)));
+  }
+}
+
 void CheckTogether(const Options& options, std::vector<std::string>& violations) {
   CheckTls(options, violations);
   CheckNotOpen("listen", options.listen, options, violations);
@@ -362,6 +381,7 @@ void CheckTogether(const Options& options, std::vector<std::string>& violations)
     violations.push_back(
         Violated("port-file", options.port_file, "needs HOST:PORT in --listen; a Unix socket has no port"));
   }
+  CheckLimitsFit(options, violations);
   const int threads = options.live_calls.calls + Options::kSpareThreads;
   if (options.max_threads < threads) {
     violations.push_back(
@@ -496,14 +516,16 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   auto& options = std::get<Options>(*parsed);
   CheckEnvironment(app, violations);
   Read(line.given, options, violations);
-  const LiveCallLimits defaults = LiveCallLimitsFor(options.live_calls.calls);
+  LiveCallLimits& calls = options.live_calls;
   const auto or_default = [&app](const char* flag, int default_limit, int& limit) {
     if (app.count(flag) == 0) limit = default_limit;
   };
-  or_default("--max-live-calls-per-peer", defaults.calls_per_peer, options.live_calls.calls_per_peer);
-  or_default("--max-streams", defaults.streams, options.live_calls.streams);
-  or_default("--max-streams-per-peer", defaults.streams_per_peer, options.live_calls.streams_per_peer);
-  or_default("--max-threads", options.live_calls.calls + Options::kSpareThreads, options.max_threads);
+  or_default("--max-live-calls-per-peer", CallsPerPeerFor(calls.calls), calls.calls_per_peer);
+  or_default("--max-streams", StreamsFor(calls.calls), calls.streams);
+  or_default("--max-streams-per-peer", StreamsPerPeerFor(calls.streams), calls.streams_per_peer);
+  or_default("--max-connections-per-peer", std::min(options.connections.per_peer, options.connections.in_all),
+             options.connections.per_peer);
+  or_default("--max-threads", calls.calls + Options::kSpareThreads, options.max_threads);
   CheckTogether(options, violations);
   if (!violations.empty()) return absl::InvalidArgumentError(absl::StrJoin(violations, "\n"));
   return parsed;

@@ -156,13 +156,19 @@ class Auditor {
   size_t named_ = 0;
 };
 
+// The rows of one call. A solver that does not tell its limits refuses what is too much.
+size_t RowsOfACall(const Solver& solver) {
+  const absl::StatusOr<InfoResponse> info = solver.Info({});
+  return static_cast<size_t>(info.ok() ? std::min(kMostAuditRows, info->limits.max_audit_rows) : kMostAuditRows);
+}
+
 absl::Status AuditAll(AuditTable& table, int64_t size, const AuditDataOptions& data, bool rows_to_terminal,
-                      Auditor& auditor) {
+                      size_t rows_of_a_call, Auditor& auditor) {
   const Interrupt interrupt;
   Progress progress(rows_to_terminal, "rows");
   bool is_first = true;
   while (true) {
-    AuditRows rows = table.Next(static_cast<size_t>(kMostAuditRows));
+    AuditRows rows = table.Next(rows_of_a_call);
     // Without rows there is still one call, which reports the errors of the scene.
     if (rows.lines.empty() && !is_first) break;
     is_first = false;
@@ -206,7 +212,7 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
   const Writer writer(options.format, scene, data.list);
   Auditor auditor(solver, scene, data, writer, *output);
   const bool has_rows = data.list || options.format != Format::kText;
-  return AuditAll(*table, size, data, has_rows && options.output.empty(), auditor);
+  return AuditAll(*table, size, data, has_rows && options.output.empty(), RowsOfACall(solver), auditor);
 }
 
 }  // namespace ricochet::cli

@@ -30,6 +30,7 @@ constexpr int kLastStep = 30;
 struct Estimate {
   double rate = 0.0;
   double error = kUnknown;
+  bool is_cut_off = false;  // The error is less of the values than of the step: a shorter one may be better.
 };
 
 // The weights of the values in 1 ... count steps for the derivative at 0, in which a constant has no part.
@@ -73,7 +74,7 @@ Estimate EstimateOf(const std::array<double, kNeighbours>& changes, const Weight
   // The place of a neighbour is rounded, too.
   rounding += 0x1p-51 * unit * std::fabs(sum[0] / step);
   const double cut_off = std::fabs(sum[0] - sum[1]) + std::fabs(sum[1] - sum[2]);
-  return {.rate = sum[0] / step, .error = (cut_off + rounding) / std::fabs(step)};
+  return {.rate = sum[0] / step, .error = (cut_off + rounding) / std::fabs(step), .is_cut_off = cut_off > rounding};
 }
 
 // Keeps the better estimate. Returns true if it is the new one.
@@ -145,31 +146,33 @@ class Sides {
     return true;
   }
 
-  // Returns false once every side that exists has an estimate and this step has made none better.
+  // Returns false once every side that exists has an estimate, this step has made none better, and shorter ones cannot.
   bool Refine(double step, const std::array<bool, 2>& is_one_course) {
     static const Weights one_sided = WeightsBy(OneSidedWeights);
     static const Weights central = WeightsBy(CentralWeights);
     const Sample& here = source_.here();
     const bool is_smooth =
         is_one_course[0] && is_one_course[1] && beside_[0]->course == here.course && beside_[1]->course == here.course;
-    bool has_improved = false;
+    bool goes_on = false;
+    const auto improve = [&goes_on](Estimate& best, const Estimate& next) {
+      goes_on |= Improve(best, next) || next.is_cut_off;
+    };
     for (size_t i = 0; i < central_.size(); ++i) {
       std::array<double, kNeighbours> changes;
       for (const size_t side : kSides) {
         if (!is_one_course[side]) continue;
         for (size_t j = 0; j < kNeighbours; ++j) changes[j] = neighbours_[side][j]->value[i] - here.value[i];
         const Estimate next = EstimateOf(changes, one_sided, Noise(side, i), Sign(side) * step, line_.unit());
-        has_improved |= Improve(one_sided_[side][i], next);
+        improve(one_sided_[side][i], next);
       }
       if (!is_smooth) continue;
       for (size_t j = 0; j < kNeighbours; ++j) {
         changes[j] = 0.5 * (neighbours_[1][j]->value[i] - neighbours_[0][j]->value[i]);
       }
-      has_improved |=
-          Improve(central_[i], EstimateOf(changes, central, std::max(Noise(0, i), Noise(1, i)), step, line_.unit()));
+      improve(central_[i], EstimateOf(changes, central, std::max(Noise(0, i), Noise(1, i)), step, line_.unit()));
     }
     const bool waits = (beside_[0].has_value() && !is_one_course[0]) || (beside_[1].has_value() && !is_one_course[1]);
-    return has_improved || waits;
+    return goes_on || waits;
   }
 
   double Noise(size_t side, size_t i) const {
@@ -185,7 +188,7 @@ class Sides {
     if (std::fabs(beside - here) > kJump * std::max(std::fabs(beside), source_.scale(i))) {
       return {.why_none = "the number jumps"};
     }
-    const auto& [rate, error] = one_sided_[side][i];
+    const double rate = one_sided_[side][i].rate, error = one_sided_[side][i].error;
     constexpr double kVague = 0.1;
     constexpr double kNegligible = 1e-6;
     const double negligible = kNegligible * source_.scale(i) / line_.unit();

@@ -127,7 +127,7 @@ class OutcomeSource final : public SampleSource {
     return numbers;
   }
 
-  // A number without an error of its own has that of the outcome, on its scale.
+  // A number without an error of its own, or without a finite one, has that of the outcome, on its scale.
   Sample SampleOf(const Scene& scene, const Outcome& outcome) const {
     const std::vector<double> numbers = NumbersOf(outcome);
     const double relative = std::max(outcome.accuracy.relative_error, 0x1p-51);
@@ -135,7 +135,8 @@ class OutcomeSource final : public SampleSource {
     for (size_t i = 0; i < places_.size(); ++i) {
       const double value = At(places_[i], numbers), error = At(error_places_[i], numbers);
       sample.value.push_back(value);
-      sample.error.push_back(std::isnan(error) ? relative * scales_[i] : std::max(error, 0x1p-52 * std::fabs(value)));
+      sample.error.push_back(std::isfinite(error) ? std::max(error, 0x1p-52 * std::fabs(value))
+                                                  : relative * scales_[i]);
     }
     return sample;
   }

@@ -30,14 +30,13 @@ struct ColumnRule {
   const char* refused_for = "";
 };
 
-ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool has_before, bool is_planar) {
+ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool is_planar) {
   ColumnRule rule = {absl::StrCat("columns.", column.name), in.*column.values, Presence::kOptional};
-  if (column.part == AuditColumnPart::kOption) return rule;
   if (column.is_spatial && is_planar) {
     rule.presence = Presence::kRefused;
     rule.refused_for = "for a planar system";
-  } else if (column.part == AuditColumnPart::kBefore) {
-    if (has_before) rule.presence = Presence::kRequired;
+  } else if (column.part != AuditColumnPart::kAfter) {
+    return rule;
   } else if (in.rates_after_rad_s.empty()) {
     rule.presence = Presence::kRequired;
   } else {
@@ -48,9 +47,8 @@ ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool h
 }
 
 std::vector<ColumnRule> Rules(const AuditColumns& in, size_t directions) {
-  const bool has_before = !in.tangential_m_s.empty() || !in.tangential_2_m_s.empty() || !in.normal_m_s.empty();
   std::vector<ColumnRule> rules;
-  for (const NamedAuditColumn& column : kAuditColumns) rules.push_back(RuleOf(column, in, has_before, directions == 1));
+  for (const NamedAuditColumn& column : kAuditColumns) rules.push_back(RuleOf(column, in, directions == 1));
   for (size_t i = 0; i < in.rates_after_rad_s.size(); ++i) {
     rules.push_back(
         {absl::StrCat("columns.rates_after[", i, "].rates_rad_s"), in.rates_after_rad_s[i], Presence::kRequired});
@@ -101,6 +99,15 @@ std::vector<Violation> CheckColumns(const std::vector<ColumnRule>& rules, size_t
 }
 
 double ValueAt(const std::vector<double>& column, size_t row) { return column.size() == 1 ? column[0] : column[row]; }
+
+// A column that is left out leaves the number as it is.
+void Set(const std::vector<double>& column, size_t row, double& number) {
+  if (!column.empty()) number = ValueAt(column, row);
+}
+
+bool HasVelocityBefore(const AuditColumns& in) {
+  return !in.tangential_m_s.empty() || !in.tangential_2_m_s.empty() || !in.normal_m_s.empty();
+}
 
 // Decide whether a row's velocity before the impact is one that its contact can have: the rule of
 // audit::CheckScene.
@@ -154,7 +161,7 @@ AuditRows::AuditRows(const AuditColumns& columns, size_t size, Scene scene, cons
     : columns_(columns),
       size_(size),
       scene_(std::move(scene)),
-      scene_problem_(audit::MakeProblem(scene_, contact, /*from_own_velocity=*/columns.normal_m_s.empty())) {}
+      scene_problem_(audit::MakeProblem(scene_, contact, /*from_own_velocity=*/!HasVelocityBefore(columns))) {}
 
 absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, absl::FunctionRef<bool()> stopped) const {
   const audit::AnyProblem problem = ProblemAt(row);
@@ -169,7 +176,7 @@ audit::AnyProblem AuditRows::ProblemAt(size_t row) const {
   audit::AnyProblem any = scene_problem_;
   std::visit(
       [&](auto& problem) {
-        if (!columns_.normal_m_s.empty()) SetVelocity(row, problem);
+        SetVelocity(row, problem);
         SetFriction(row, problem.mu, problem.mu_static);
       },
       any);
@@ -180,13 +187,14 @@ audit::AnyProblem AuditRows::ProblemAt(size_t row) const {
 void AuditRows::SetVelocity(size_t /*row*/, pendulum::Problem& /*problem*/) const {}
 
 void AuditRows::SetVelocity(size_t row, planar::Problem& problem) const {
-  problem.u0 = ValueAt(columns_.tangential_m_s, row);
-  problem.v0 = ValueAt(columns_.normal_m_s, row);
+  Set(columns_.tangential_m_s, row, problem.u0);
+  Set(columns_.normal_m_s, row, problem.v0);
 }
 
 void AuditRows::SetVelocity(size_t row, spatial::Problem& problem) const {
-  problem.u0 = {ValueAt(columns_.tangential_m_s, row), ValueAt(columns_.tangential_2_m_s, row)};
-  problem.v0 = ValueAt(columns_.normal_m_s, row);
+  Set(columns_.tangential_m_s, row, problem.u0[0]);
+  Set(columns_.tangential_2_m_s, row, problem.u0[1]);
+  Set(columns_.normal_m_s, row, problem.v0);
 }
 
 void AuditRows::SetFriction(size_t row, double& mu, double& mu_static) const {

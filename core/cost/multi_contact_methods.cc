@@ -94,16 +94,13 @@ Kernel KernelOf(const Problem& problem, double speed) {
 
 StudiedScene StudyMultiContact(const MultiContactScene& scene, const MultiReduction& reduction) {
   StudiedScene study = {.speed = SpeedOf(reduction), .directions = 0};
-  constexpr std::pair<MultiContactMethod, const char*> kMethods[] = {{MultiContactMethod::kOrders, "orders"},
-                                                                     {MultiContactMethod::kSprings, "springs"},
-                                                                     {MultiContactMethod::kPossible, "possible"}};
-  for (const auto& [method, name] : kMethods) {
+  for (const auto method : {MultiContactMethod::kOrders, MultiContactMethod::kSprings, MultiContactMethod::kPossible}) {
     if (!WhyNot(method, reduction.directions, static_cast<int>(scene.contacts.size())).empty()) continue;
     const Problem problem = {
         .request = std::make_shared<MultiContactRequest>(MultiContactRequest{.scene = scene, .methods = {method}}),
         .reduction = reduction};
     study.methods.push_back(
-        {.name = name, .method = {.multi_contact = method}, .kernel = KernelOf(problem, study.speed)});
+        {.name = NameOf(method), .method = {.multi_contact = method}, .kernel = KernelOf(problem, study.speed)});
   }
   return study;
 }

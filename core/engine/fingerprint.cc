@@ -1,5 +1,6 @@
 #include "core/engine/fingerprint.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -11,14 +12,20 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/answer/scene_outcome.h"
+#include "core/base/invariant.h"
 #include "core/base/stable_hash.h"
+#include "core/contact/multi_reduction.h"
+#include "core/engine/fit_run.h"
 #include "core/models/finite_duration/finite_duration.h"
 #include "core/models/restitution_law.h"
+#include "core/multi/solve_multi_contact.h"
 #include "core/plan/demand.h"
 #include "core/rows/axis_values.h"
 #include "core/scene/validate.h"
 #include "ricochet/engine_info.h"
+#include "ricochet/fit.h"
 #include "ricochet/grid.h"
+#include "ricochet/multi_contact.h"
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/plan.h"
 #include "ricochet/scene.h"
@@ -207,6 +214,56 @@ std::vector<uint64_t> ValuesOfAxes() {
   return bits;
 }
 
+// A block that falls flat: its orders, springs and the set of possible outcomes.
+std::vector<uint64_t> SeveralContacts() {
+  const double inertia = 5.0 / 12.0;
+  MultiContactRequest request = {.scene = {.system = FreeBodies{.bodies = {{.mass_kg = 1.0,
+                                                                            .inertia_com_kg_m2 = {inertia},
+                                                                            .position_m = {0.0, 1.0},
+                                                                            .linear_m_s = {0.1, -1.0}}}}}};
+  for (const double side : {-1.0, 1.0}) {
+    request.scene.contacts.push_back({.friction = 0.3,
+                                      .energetic = 0.5,
+                                      .relative_stiffness = 2.0 + side,
+                                      .body = 1,
+                                      .point_m = {0.5 * side, 0.0},
+                                      .normal = {0.0, 1.0}});
+  }
+  std::vector<uint64_t> bits;
+  const auto answers = SolveMultiContact(request, Reduce(request.scene), [] { return false; });
+  CheckInvariant(answers.ok(), "the block of the fingerprint has an answer");
+  const auto add = [&bits](const AttainedOutcome& outcome) {
+    for (const double v : outcome.contact_velocity_m_s) bits.push_back(std::bit_cast<uint64_t>(v));
+  };
+  std::for_each(answers->front().orders.begin(), answers->front().orders.end(), add);
+  if (answers->front().springs.has_value()) add(*answers->front().springs);
+  for (const PossibleRange& range : answers->front().possible) {
+    for (const double end : {range.lower, range.upper}) bits.push_back(std::bit_cast<uint64_t>(end));
+  }
+  return bits;
+}
+
+// The friction and the restitution of a pendulum that three impacts tell.
+std::vector<uint64_t> FittedNumbers() {
+  const FitRequest request = {.scene = {.system = Pendulum{1.3, 0.7, 0.3, -1.1},
+                                        .friction = {.kinetic_coefficient = 0.2},
+                                        .restitution = NewtonCoefficient{0.5}},
+                              .unknowns = {{.path = "restitution.newton"}, {.path = "friction.kinetic_coefficient"}},
+                              .inputs = {{"pendulum.omega_minus_rad_s", {-1.0, -1.5, -2.0}}},
+                              .measured = {{"rates_after_rad_s[0]", {0.61, 0.89, 1.21}, {0.02}},
+                                           {"impulse.normal_total_n_s", {2.7, 4.1, 5.4}, {0.1}}},
+                              .starts = 1};
+  const absl::StatusOr<FitResponse> response = RunFit(request, nullptr, [] { return false; });
+  CheckInvariant(response.ok(), "the fit of the fingerprint has an answer");
+  std::vector<uint64_t> bits;
+  for (const FitEstimate& unknown : response->unknowns) {
+    for (const double number : {unknown.value, unknown.low.value.value_or(0.0), unknown.high.value.value_or(0.0)}) {
+      bits.push_back(std::bit_cast<uint64_t>(number));
+    }
+  }
+  return bits;
+}
+
 }  // namespace
 
 std::vector<Probe> ProbeEngine() {
@@ -232,6 +289,8 @@ std::vector<Probe> ProbeEngine() {
   std::vector<Probe> probes = std::move(questions).Answers();
   probes.push_back({"powers", PowersOfTheLibrary()});
   probes.push_back({"axes", ValuesOfAxes()});
+  probes.push_back({"several contacts", SeveralContacts()});
+  probes.push_back({"fit", FittedNumbers()});
   return probes;
 }
 

@@ -23,11 +23,11 @@
 #include "core/engine/check_limits.h"
 #include "core/engine/check_solve.h"
 #include "core/engine/chunk_size.h"
+#include "core/engine/fit_run.h"
 #include "core/engine/helper_threads.h"
 #include "core/engine/info.h"
 #include "core/engine/parallel_batch.h"
 #include "core/engine/sweep_run.h"
-#include "core/fit/fit.h"
 #include "core/multi/solve_multi_contact.h"
 #include "core/plan/demand_fields.h"
 #include "core/scene/validate.h"
@@ -211,11 +211,8 @@ absl::StatusOr<FitResponse> LocalSolver::DoFit(const FitRequest& request, const 
   CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
-  const auto open_rows = [this, &options](CheckedBatch batch) -> fit::SolveRows {
-    return [rows = std::make_unique<ParallelBatch>(std::move(batch), HelpersOf(options))](
-               const BatchRows& all, absl::FunctionRef<bool()> stopped) { return rows->Solve(all, stopped); };
-  };
-  absl::StatusOr<FitResponse> response = FitScene(request, open_rows, [&control] { return control.IsStopped(); });
+  absl::StatusOr<FitResponse> response =
+      RunFit(request, HelpersOf(options), [&control] { return control.IsStopped(); });
   if (!response.ok()) return control.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;

@@ -16,6 +16,7 @@
 #include "core/fit/problem.h"
 #include "core/fit/profile.h"
 #include "core/fit/search.h"
+#include "core/fit/starts.h"
 #include "core/numerics/elementary.h"
 #include "ricochet/error.h"
 
@@ -31,7 +32,9 @@ constexpr int kPlaces = 4;
 constexpr int kMostRestarts = 4;
 // Before the data refuse a fit it is sought from so many further starts: where all rows stick, or none approaches, the
 // search sees no way to a better one.
-constexpr int kFurtherStarts = 16;
+constexpr size_t kFurtherStarts = 16;
+// They are the best of so many places.
+constexpr int kLookedAt = 512;
 // One of these that lowers the objective by less than this part of it has found the same fit.
 constexpr double kLeastGain = 1e-6;
 
@@ -58,27 +61,6 @@ absl::Status CheckStart(const FitRequest& request, Model& model) {
   return InvalidRequest({{bad.field, absl::StrCat(bad.description, " in row ", row)}});
 }
 
-// The starts after the first, spread evenly by multiples of the generalized golden ratio: over the bounds, or from a
-// quarter to four times a start without two of them, and further the longer those that were not asked for go on.
-std::vector<double> StartOf(const Problem& problem, int number) {
-  std::vector<double> start = problem.start;
-  double ratio = 2.0;
-  for (int i = 0; i < 40; ++i) ratio = Pow(1.0 + ratio, 1.0 / (static_cast<double>(start.size()) + 1.0));
-  const double reach = number < problem.starts ? 1.0 : 1.0 + (number - problem.starts) / 3.0;
-  double step = 1.0;
-  for (size_t k = 0; k < start.size() && number > 0; ++k) {
-    step /= ratio;
-    const double place = 0.5 + number * step;
-    const double part = place - std::floor(place);
-    const double width = problem.high[k] - problem.low[k];
-    const double spread =
-        start[k] != 0.0 ? start[k] * Exp((4.0 * part - 2.0) * reach * std::numbers::ln2) : 2.0 * part - 1.0;
-    start[k] =
-        std::isfinite(width) ? problem.low[k] + part * width : std::clamp(spread, problem.low[k], problem.high[k]);
-  }
-  return start;
-}
-
 // Fits one request.
 class Fitter {
  public:
@@ -86,12 +68,10 @@ class Fitter {
       : problem_(problem), model_(model), all_free_(problem.unknowns(), true) {}
 
   FitResponse Fit() {
-    for (int number = 0; number < problem_.starts; ++number) SearchFrom(number);
+    for (int number = 0; number < problem_.starts; ++number) SearchFrom(StartOf(problem_, number), number);
     if (model_.is_stopped()) return {};  // There may be no fit yet to look at.
     Look();
-    for (int number = problem_.starts; number < problem_.starts + kFurtherStarts && IsRefused(); ++number) {
-      if (SearchFrom(number)) Look();
-    }
+    if (IsRefused()) SearchFurther();
     for (int restart = 0; FollowUnknowns(restart < kMostRestarts) && !model_.is_stopped(); ++restart) Look();
     FollowRegion();
     Judge(problem_, best_.at, information_, model_, response_);
@@ -100,10 +80,10 @@ class Fitter {
 
  private:
   // Returns true if the fit is the best so far.
-  bool SearchFrom(int number) {
+  bool SearchFrom(const std::vector<double>& start, int number) {
     if (model_.is_stopped()) return false;
-    const std::vector<double> start = StartOf(problem_, number);
-    const Minimum found = Minimize(start, all_free_, kFineSearch, model_);
+    Minimum found = Minimize(start, all_free_, kFineSearch, model_);
+    Approach(start, model_, found);
     // Of the starts that were not asked for, those tell something that lead to a better fit.
     if (number >= problem_.starts && !(found.objective < (1.0 - kLeastGain) * best_.objective)) return false;
     const bool has_start = std::isfinite(found.objective);
@@ -111,6 +91,14 @@ class Fitter {
     const bool is_best = number == 0 || found.objective < best_.objective;
     if (is_best) best_ = found;
     return is_best;
+  }
+
+  void SearchFurther() {
+    int number = problem_.starts;
+    for (const std::vector<double>& start : BestPlaces(problem_.start, all_free_, kLookedAt, kFurtherStarts, model_)) {
+      if (SearchFrom(start, number++)) Look();
+      if (!IsRefused()) break;
+    }
   }
 
   // True if the residuals of the best fit are too large for their errors.
@@ -176,7 +164,8 @@ class Fitter {
   }
 
   bool Adopt(const Minimum& better) {
-    const Minimum found = Minimize(better.at, all_free_, kFineSearch, model_);
+    Minimum found = Minimize(better.at, all_free_, kFineSearch, model_);
+    Approach(better.at, model_, found);
     best_ = found.objective < better.objective ? found : better;
     return true;
   }

@@ -68,9 +68,24 @@ bool Model::SolveHere(absl::Span<const double> unknowns) {
 
 bool Model::Predict(absl::Span<const double> unknowns, std::vector<double>& predicted) {
   if (!SolveHere(unknowns)) return false;
-  predicted.clear();
-  for (const Number& number : problem_.numbers) predicted.push_back(here_.columns[number.column][number.row]);
+  predicted = NumbersOf(here_, 0);
   return std::all_of(predicted.begin(), predicted.end(), [](double value) { return std::isfinite(value); });
+}
+
+bool Model::PredictAll(const std::vector<std::vector<double>>& points, std::vector<std::vector<double>>& predicted) {
+  Solved solved;
+  if (!SolveAt(points, solved)) return false;
+  predicted.clear();
+  for (size_t point = 0; point < points.size(); ++point) predicted.push_back(NumbersOf(solved, point));
+  return true;
+}
+
+std::vector<double> Model::NumbersOf(const Solved& solved, size_t point) const {
+  std::vector<double> numbers;
+  for (const Number& number : problem_.numbers) {
+    numbers.push_back(solved.columns[number.column][point * problem_.rows + number.row]);
+  }
+  return numbers;
 }
 
 std::optional<BadRow> Model::Bad(const std::vector<double>& predicted) const {
@@ -142,17 +157,16 @@ bool Model::Sides(absl::Span<const double> unknowns, const std::vector<bool>& is
   if (!SolveAt(points, beside)) return false;
   below.assign(problem_.numbers.size() * unknowns.size(), 0.0);
   above = below;
-  for (size_t i = 0; i < problem_.numbers.size(); ++i) {
-    const Number& number = problem_.numbers[i];
-    const double here = here_.columns[number.column][number.row];
-    size_t point = 0;
-    for (size_t k = 0; k < unknowns.size(); ++k) {
-      if (!is_free[k]) continue;
-      for (std::vector<double>* const side : {&below, &above}) {
-        const double there = beside.columns[number.column][point * problem_.rows + number.row];
-        (*side)[i * unknowns.size() + k] = (there - here) / (points[point][k] - unknowns[k]);
-        ++point;
+  const std::vector<double> here = NumbersOf(here_, 0);
+  size_t point = 0;
+  for (size_t k = 0; k < unknowns.size(); ++k) {
+    if (!is_free[k]) continue;
+    for (std::vector<double>* const side : {&below, &above}) {
+      const std::vector<double> there = NumbersOf(beside, point);
+      for (size_t i = 0; i < here.size(); ++i) {
+        (*side)[i * unknowns.size() + k] = (there[i] - here[i]) / (points[point][k] - unknowns[k]);
       }
+      ++point;
     }
   }
   return true;

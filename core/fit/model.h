@@ -30,6 +30,9 @@ class Model {
 
   // Sets the predicted numbers and returns true if all exist. The rows of Bad and regimes() are those of the last call.
   bool Predict(absl::Span<const double> unknowns, std::vector<double>& predicted);
+  // Predicts the numbers at each of some points; a number that does not exist is not finite. Returns false once it is
+  // stopped.
+  bool PredictAll(const std::vector<std::vector<double>>& points, std::vector<std::vector<double>>& predicted);
   const std::vector<Regime>& regimes() const { return here_.regimes; }
   // Returns the first measured number that has no prediction, and why.
   std::optional<BadRow> Bad(const std::vector<double>& predicted) const;
@@ -55,6 +58,7 @@ class Model {
 
   bool SolveAt(const std::vector<std::vector<double>>& points, Solved& solved);
   bool SolveHere(absl::Span<const double> unknowns);
+  std::vector<double> NumbersOf(const Solved& solved, size_t point) const;
   bool Exact(absl::Span<const double> unknowns, const std::vector<bool>& is_free, std::vector<double>& derivatives);
 
   const Problem& problem_;

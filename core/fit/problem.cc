@@ -113,7 +113,8 @@ class Door {
     const std::string name = absl::StrCat("unknowns[", k, "]");
     Scene scene = request_.scene;
     const std::optional<double> own = NumberAt(scene, unknown.path);
-    const auto [least, most] = RangeOf(ResolveField(unknown.path, scene)->rule());
+    const NumberRule rule = ResolveField(unknown.path, scene)->rule();
+    const auto [least, most] = RangeOf(rule);
     const std::string range = absl::StrCat("be in [", ShortestDecimal(least), ", ", ShortestDecimal(most), "]");
     for (const auto& [bound, value] : {std::pair(".low", unknown.low), std::pair(".high", unknown.high)}) {
       if (value.has_value() && !(*value >= least && *value <= most)) RefuseNumber(name + bound, *value, range);
@@ -133,6 +134,7 @@ class Door {
     const double at = start.value_or(0.0);
     const double width = std::isfinite(high - low) ? high - low : 1.0;
     problem_.start.push_back(at);
+    problem_.is_angle.push_back(rule == NumberRule::kAngle);
     problem_.low.push_back(low);
     problem_.high.push_back(high);
     problem_.scale.push_back(at != 0.0 ? std::fabs(at) : width);

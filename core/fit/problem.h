@@ -30,6 +30,7 @@ struct Problem {
   std::vector<Number> numbers;              // Row by row.
   // For each unknown; bounds may be infinite. A scale is > 0 and of the size of the unknown.
   std::vector<double> start, low, high, scale;
+  std::vector<bool> is_angle;
   FitLoss loss = FitLoss::kSquares;
   double loss_scale = 1.0;
   int32_t starts = kFitStarts;

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/fit/starts.h"
+
 namespace ricochet::fit {
 namespace {
 
@@ -16,8 +18,9 @@ constexpr double kFarthest = 0x1p20;
 constexpr double kEndTolerance = 1e-5;
 // A search goes on beyond so many ends that were none.
 constexpr int kMostFurther = 8;
-// A better fit by no more than this is the same fit.
-constexpr double kSameFit = 1e-6;
+// Of so many places around the other unknowns' best, so many are tried.
+constexpr int kLookedAt = 128;
+constexpr size_t kTriedPlaces = 2;
 
 class Ray {
  public:
@@ -27,7 +30,10 @@ class Ray {
     for (size_t k = 0; k < step_.size(); ++k) {
       if (is_free_[k] || step_[k] == 0.0) continue;
       const double bound = step_[k] > 0.0 ? problem.high[k] : problem.low[k];
-      longest_ = std::min(longest_, (bound - best.at[k]) / step_[k]);
+      const double distance = (bound - best.at[k]) / step_[k];
+      if (!(distance < longest_)) continue;
+      longest_ = distance;
+      at_bound_ = kEndTolerance * problem.scale[k] / std::fabs(step_[k]);
     }
     longest_ = std::max(longest_, 0.0);
   }
@@ -54,7 +60,7 @@ class Ray {
         if (inside.distance >= kFarthest) return End(FitEndKind::kUnbounded, inside.distance);
         outside = Next(std::min(inside.distance > 0.0 ? 2.0 * inside.distance : 1.0, longest_));
       }
-      const RayEnd end = Narrow(inside, outside);
+      RayEnd end = Narrow(inside, outside);
       if (further == kMostFurther || !GoesOn(outside, inside)) return end;
     }
   }
@@ -71,9 +77,19 @@ class Ray {
     return start;
   }
 
+  // The distance, or the least number that is held there, over its step.
+  double SizeAt(double distance) const {
+    double size = distance;
+    for (size_t k = 0; k < step_.size(); ++k) {
+      const double held = std::fabs(best_.at[k] + distance * step_[k]);
+      if (!is_free_[k] && step_[k] != 0.0 && held > 0.0) size = std::min(size, held / std::fabs(step_[k]));
+    }
+    return size;
+  }
+
   RayPoint Adopt(double distance, const Minimum& least) {
     if (std::isfinite(least.objective)) last_ = least.at;
-    if (least.objective < best_.objective - kSameFit && !end_.better.has_value()) end_.better = least;
+    if (least.objective < best_.objective - kAsGood && !end_.better.has_value()) end_.better = least;
     end_.computed.push_back({distance, least.objective - best_.objective});
     return end_.computed.back();
   }
@@ -83,24 +99,33 @@ class Ray {
     return Adopt(distance, Minimize(StartAt(distance, last_, 1.0), is_free_, kCoarseSearch, model_));
   }
 
-  // Sees whether a place outside is inside if the other unknowns start at the best fit, or move by the factor of the
-  // one that is held, or by its inverse, as numbers do of which a product or a quotient alone is measured. If so, it is
-  // the new place inside.
+  // Sees whether a place outside is inside if the other unknowns start elsewhere. If so, it is the new place inside.
   bool GoesOn(const RayPoint& outside, RayPoint& inside) {
+    if (std::none_of(is_free_.begin(), is_free_.end(), [](bool is_free) { return is_free; })) return false;
+    for (const std::vector<double>& start : OtherStarts(outside.distance)) {
+      const Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
+      if (!(found.objective - best_.objective < rise_)) continue;
+      inside = Adopt(outside.distance, found);
+      return true;
+    }
+    return false;
+  }
+
+  // The other unknowns at the best fit; moved by the factor of the one that is held, or by its inverse, as numbers do
+  // of which a product or a quotient alone is measured; and where they fit best of many places.
+  std::vector<std::vector<double>> OtherStarts(double distance) {
     double factor = 1.0;
-    const std::vector<double> held = StartAt(outside.distance, best_.at, 1.0);
+    std::vector<std::vector<double>> starts = {StartAt(distance, best_.at, 1.0)};
+    const std::vector<double> held = starts.front();
     for (size_t k = 0; k < held.size(); ++k) {
       if (!is_free_[k] && best_.at[k] != 0.0) factor = held[k] / best_.at[k];
     }
-    for (const double by : {1.0, factor, 1.0 / factor}) {
-      const Minimum found = Minimize(StartAt(outside.distance, best_.at, by), is_free_, kCoarseSearch, model_);
-      if (found.objective - best_.objective < rise_) {
-        inside = Adopt(outside.distance, found);
-        return true;
-      }
-      if (!std::isfinite(found.objective)) break;  // Beyond a rule of the scene, and not a valley.
+    starts.push_back(StartAt(distance, best_.at, factor));
+    starts.push_back(StartAt(distance, best_.at, 1.0 / factor));
+    for (std::vector<double>& place : BestPlaces(held, is_free_, kLookedAt, kTriedPlaces, model_)) {
+      starts.push_back(std::move(place));
     }
-    return false;
+    return starts;
   }
 
   // Closes in on the end between a place inside and one outside. The root of the rise is nearly straight, so that the
@@ -111,8 +136,9 @@ class Ray {
     for (int i = 0; i < 80 && !model_.is_stopped(); ++i) {
       if (root(outside) - target < kEndTolerance * target) return End(FitEndKind::kFound, outside.distance);
       if (target - root(inside) < kEndTolerance * target) return End(FitEndKind::kFound, inside.distance);
+      if (inside.distance >= longest_ - at_bound_) return End(FitEndKind::kCutByBound, longest_);
       const double width = outside.distance - inside.distance;
-      if (width <= kEndTolerance * outside.distance) break;
+      if (width <= kEndTolerance * SizeAt(inside.distance)) break;
       const double part = (target - root(inside)) / (root(outside) - root(inside));
       const bool is_line = i % 3 != 2 && part > 0.0;
       const RayPoint next = Next(inside.distance + width * (is_line ? std::clamp(part, 1e-3, 0.999) : 0.5));
@@ -128,6 +154,7 @@ class Ray {
   Model& model_;
   std::vector<double> last_;                                  // The unknowns of the last place.
   double longest_ = std::numeric_limits<double>::infinity();  // The distance to the nearest bound.
+  double at_bound_ = 0.0;                                     // An end that is no further from the bound lies there.
   RayEnd end_;  // It holds what the places so far have shown, but for the kind.
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <unsupported/Eigen/LevenbergMarquardt>
 
 #include "core/numerics/elementary.h"
@@ -105,15 +106,20 @@ class Residuals : public Eigen::DenseFunctor<double> {
   mutable std::vector<double> predicted_;
 };
 
+double ObjectiveOf(const Problem& problem, const std::vector<double>& predicted) {
+  double sum = 0.0;
+  for (size_t i = 0; i < predicted.size(); ++i) {
+    if (!std::isfinite(predicted[i])) return std::numeric_limits<double>::infinity();
+    const double residual = problem.numbers[i].Residual(predicted[i]);
+    sum += LossOf(problem, residual * residual).loss;
+  }
+  return sum;
+}
+
 double ObjectiveAt(const std::vector<double>& at, Model& model) {
   std::vector<double> predicted;
   if (!model.Predict(at, predicted)) return std::numeric_limits<double>::infinity();
-  double sum = 0.0;
-  for (size_t i = 0; i < predicted.size(); ++i) {
-    const double residual = model.problem().numbers[i].Residual(predicted[i]);
-    sum += LossOf(model.problem(), residual * residual).loss;
-  }
-  return sum;
+  return ObjectiveOf(model.problem(), predicted);
 }
 
 // One search from the minimum so far, to which it sets what it finds if that is better. Returns true if it is better by
@@ -162,6 +168,16 @@ Loss LossOf(const Problem& problem, double squared_residual) {
   return {.loss = squared_residual, .weight = 1.0};
 }
 
+std::vector<double> ObjectivesAt(const std::vector<std::vector<double>>& points, Model& model) {
+  std::vector<std::vector<double>> predicted;
+  if (!model.PredictAll(points, predicted)) {
+    return std::vector<double>(points.size(), std::numeric_limits<double>::infinity());
+  }
+  std::vector<double> objectives;
+  for (const std::vector<double>& numbers : predicted) objectives.push_back(ObjectiveOf(model.problem(), numbers));
+  return objectives;
+}
+
 // Eigen's search knows no bounds: an unknown that it moves beyond one stays at the bound, and the others go on. A
 // further search from there sees whether the unknown should come back.
 Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, double tolerance, Model& model) {
@@ -175,6 +191,30 @@ Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_f
          minimum.iterations < model.problem().max_iterations) {
   }
   return minimum;
+}
+
+void Approach(const std::vector<double>& start, Model& model, Minimum& found) {
+  const Problem& problem = model.problem();
+  const double least = found.objective;
+  const auto move = [&](size_t k, double value) {
+    std::vector<double> at = found.at;
+    at[k] = value;
+    if (value == found.at[k] || value < problem.low[k] || value > problem.high[k]) return false;
+    const double objective = ObjectiveAt(at, model);
+    if (!(objective - least <= kAsGood)) return false;
+    found.at = std::move(at);
+    found.objective = objective;
+    return true;
+  };
+  for (size_t k = 0; k < start.size() && std::isfinite(least); ++k) {
+    if (problem.is_angle[k]) {
+      move(k, start[k] + std::remainder(found.at[k] - start[k], 2.0 * std::numbers::pi));
+    }
+    // What lies among the starts is as good a place as the start.
+    if (!(std::fabs(found.at[k] - start[k]) > 4.0 * problem.scale[k]) || move(k, start[k])) continue;
+    constexpr int kMostHalves = 1100;  // Of the largest double, none is left.
+    for (int i = 0; i < kMostHalves && move(k, start[k] + 0.5 * (found.at[k] - start[k])); ++i) continue;
+  }
 }
 
 }  // namespace ricochet::fit

@@ -13,16 +13,26 @@ namespace ricochet::fit {
 
 struct Minimum {
   std::vector<double> at;
-  double objective = 0.0;  // The sum of the losses; infinite if the start has no prediction.
+  double objective = 0.0;  // That of ObjectivesAt.
   int32_t iterations = 0;
   bool converged = false;
 };
+
+// A fit that is worse by no more than this is as good.
+inline constexpr double kAsGood = 1e-6;
+
+// The sum of the losses at each point; infinite where a number has no prediction.
+std::vector<double> ObjectivesAt(const std::vector<std::vector<double>>& points, Model& model);
 
 // Searches from a start within the bounds, and holds the unknowns that are not free.
 // It ends once an iteration lowers the objective by less than this part of it.
 inline constexpr double kFineSearch = 1e-13;
 inline constexpr double kCoarseSearch = 1e-9;
 Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, double tolerance, Model& model);
+
+// Moves a fit towards a start as far as it stays as good: an angle by whole turns, and a number that has left the range
+// of the starts, because the data do not tell it from others, by halves of the way.
+void Approach(const std::vector<double>& start, Model& model, Minimum& found);
 
 // The loss of a squared residual, and its derivative by it: the weight of the residual.
 struct Loss {

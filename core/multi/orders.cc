@@ -29,8 +29,17 @@ class Search {
     }
   }
 
+  // A tree that the budget holds is followed to its ends. Of any other the branches share the budget, so that the ends
+  // found come from all of them.
   Orders Run(int64_t budget) && {
-    Follow(StartOf(problem_), -1, 0.0, budget);
+    for (const bool shares : {false, true}) {
+      shares_ = shares;
+      branched_.clear();
+      orders_ = {};
+      ran_out_ = false;
+      Follow(StartOf(problem_), -1, 0.0, budget);
+      if (!ran_out_) break;
+    }
     return std::move(orders_);
   }
 
@@ -142,6 +151,8 @@ class Search {
         return taken;
       }
       if (taken >= budget) {
+        ran_out_ = true;
+        if (!shares_) return taken;
         state.end = MultiContactEnd::kBudgetUsedUp;
         Keep(std::move(state));
         return taken;
@@ -152,7 +163,7 @@ class Search {
       if (next.empty()) return taken;
       if (next.size() > 1 && !IsNew(state)) return taken;
       for (size_t i = 0; i + 1 < next.size(); ++i) {
-        const int64_t share = (budget - taken) / static_cast<int64_t>(next.size() - i);
+        const int64_t share = (budget - taken) / (shares_ ? static_cast<int64_t>(next.size() - i) : 1);
         Attained child = state;
         const double speed = -child.v(problem_.N(next[i]));
         Strike(next[i], child);
@@ -213,6 +224,7 @@ class Search {
     });
     if (same == orders_.outcomes.end() && orders_.outcomes.size() >= kMostOutcomes) {
       orders_.complete = false;
+      orders_.left_out = true;
       return;
     }
     DistinctOutcome& outcome = same == orders_.outcomes.end() ? orders_.outcomes.emplace_back() : *same;
@@ -225,13 +237,14 @@ class Search {
   }
 
   static constexpr size_t kMostBranched = 1024;
-  static constexpr size_t kMostOutcomes = 256;
 
   const Problem& problem_;
   absl::FunctionRef<bool()> stopped_;
   Vector roots_;  // sqrt(W_jj)
   double scale_ = 0.0;
   std::vector<bool> coupled_;
+  bool shares_ = false;   // True if branches share the budget.
+  bool ran_out_ = false;  // True once a sequence needs more than its budget.
   std::vector<Attained> branched_;
   Orders orders_;
 };

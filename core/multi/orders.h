@@ -11,6 +11,7 @@
 #ifndef RICOCHET_CORE_MULTI_ORDERS_H_
 #define RICOCHET_CORE_MULTI_ORDERS_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,8 @@ namespace ricochet::multi {
 
 // The impacts that a search may take; sequences that have not ended then end with kBudgetUsedUp.
 inline constexpr int64_t kOrdersBudget = 4096;
+// The outcomes that an answer lists.
+inline constexpr size_t kMostOutcomes = 256;
 
 struct DistinctOutcome {
   Attained attained;                     // By the first order found.
@@ -31,7 +34,8 @@ struct DistinctOutcome {
 
 struct Orders {
   std::vector<DistinctOutcome> outcomes;  // They differ by more than their errors.
-  bool complete = true;                   // False if a sequence ran out of budget or jammed.
+  bool complete = true;   // False if a sequence ran out of budget or jammed, or if outcomes are left out.
+  bool left_out = false;  // True if there are more than kMostOutcomes outcomes.
 };
 
 // Once `stopped` says true, the answer means nothing.

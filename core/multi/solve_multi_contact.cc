@@ -215,6 +215,10 @@ class Answerer {
   void AddOrders() {
     const Orders orders = FindOrders(sorted_.problem, stopped_);
     orders_complete_ = orders.complete;
+    if (orders.left_out) {
+      answer_.refused.push_back({.method = MultiContactMethod::kOrders,
+                                 .reason = absl::StrCat("outcomes of orders beyond the first ", kMostOutcomes)});
+    }
     for (const DistinctOutcome& distinct : orders.outcomes) {
       AttainedOutcome& outcome = answer_.orders.emplace_back(OutcomeOf(distinct.attained));
       outcome.order_count = distinct.order_count;
@@ -363,7 +367,7 @@ class Answerer {
       answer_.verdict = MultiContactVerdict::kSingle;
     } else if (Compare(orders, orders)) {
       answer_.verdict = MultiContactVerdict::kOrderMatters;
-    } else if (Compare(orders, springs)) {
+    } else if ((!has_orders || orders_complete_) && Compare(orders, springs)) {
       answer_.verdict = MultiContactVerdict::kOrdersAgreeSpringsDiffer;
     } else if (has_orders && orders_complete_ && (!has_springs || !springs.empty())) {
       answer_.verdict = MultiContactVerdict::kOrdersAgree;

@@ -188,7 +188,8 @@ void CheckRange(const std::string& field, const MultiReduction& reduction, const
   const Eigen::VectorXd sizes = reduction.jacobian.cwiseAbs() * velocity.cwiseAbs();
   const double outside = DistanceFromRange(reduction.w, reduction.ContactVelocity(velocity), sizes);
   check.Require(outside <= 64.0 * static_cast<double>(reduction.w.rows()) * kEpsilon, [&] {
-    return MakeViolation(field, absl::StrCat("has a share of ", ShortestDecimal(outside), " beside the range of W"),
+    const std::string share = std::isfinite(outside) ? absl::StrCat("a share of ", ShortestDecimal(outside)) : "a part";
+    return MakeViolation(field, absl::StrCat("has ", share, " beside the range of W"),
                          "lie in it, no impulse changes the rest");
   });
 }
@@ -209,7 +210,7 @@ void CheckMethods(const MultiContactRequest& request, int directions, Check& che
     const MultiContactMethod method = request.methods[i];
     const std::string why_not = WhyNot(method, directions, contacts);
     check.Require(why_not.empty(), [&] {
-      return Violation{Entry("methods", i, ""), absl::StrCat("= ", static_cast<int>(method), ": ", why_not)};
+      return Violation{Entry("methods", i, ""), absl::StrCat("= ", NameOf(method), ": ", why_not)};
     });
   }
   if (!request.stiffness_range.has_value()) return;
@@ -257,6 +258,20 @@ void CheckLists(const MultiContactRequest& request, const MultiReduction& reduct
 }
 
 }  // namespace
+
+const char* NameOf(MultiContactMethod method) {
+  switch (method) {
+    case MultiContactMethod::kOrders:
+      return "orders";
+    case MultiContactMethod::kSprings:
+      return "springs";
+    case MultiContactMethod::kPossible:
+      return "possible";
+    case MultiContactMethod::kUnspecified:
+      break;
+  }
+  return "unspecified";
+}
 
 std::string WhyNot(MultiContactMethod method, int directions, int contacts) {
   switch (method) {

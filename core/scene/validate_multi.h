@@ -19,6 +19,9 @@ namespace ricochet {
 // is what the scene was reduced to.
 std::vector<Violation> Validate(const MultiContactRequest& request, std::optional<MultiReduction>& reduction);
 
+// The name of a method: "orders".
+const char* NameOf(MultiContactMethod method);
+
 // Says why a scene cannot be answered by a method; empty if it can.
 std::string WhyNot(MultiContactMethod method, int directions, int contacts);
 

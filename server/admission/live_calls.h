@@ -25,14 +25,16 @@ struct LiveCallLimits {
   friend bool operator==(const LiveCallLimits&, const LiveCallLimits&) = default;
 };
 
-// The limits that go with `calls` >= 1 live calls, unless others are asked for: one peer leaves an eighth of the calls
-// and a quarter of the streams to others, and streams leave three quarters of the calls to unary calls.
+// The limits that go with others, unless they are asked for: one peer leaves an eighth of the calls and a quarter of the
+// streams to others, and streams leave three quarters of the calls to unary calls. `calls` and `streams` are >= 1.
+constexpr int CallsPerPeerFor(int calls) { return calls - calls / 8; }
+constexpr int StreamsFor(int calls) { return calls < 4 ? 1 : calls / 4; }
+constexpr int StreamsPerPeerFor(int streams) { return streams - streams / 4; }
 constexpr LiveCallLimits LiveCallLimitsFor(int calls) {
-  const auto at_least_1 = [](int number) { return number < 1 ? 1 : number; };
   return {.calls = calls,
-          .calls_per_peer = at_least_1(calls - calls / 8),
-          .streams = at_least_1(calls / 4),
-          .streams_per_peer = at_least_1(calls / 4 - calls / 16)};
+          .calls_per_peer = CallsPerPeerFor(calls),
+          .streams = StreamsFor(calls),
+          .streams_per_peer = StreamsPerPeerFor(StreamsFor(calls))};
 }
 
 // Thread safety: every method may be called from several threads at once.

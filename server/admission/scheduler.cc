@@ -67,9 +67,11 @@ absl::Status Scheduler::Compute(const ComputeRequest& request, absl::FunctionRef
     times_.Learn(*request.cost, computed_s, Clock::now() >= waiter.deadline);
   };
   if (request.deadline.has_value() && Clock::now() >= *request.deadline) {
-    return absl::DeadlineExceededError("the deadline passed before the call began");
+    return absl::DeadlineExceededError(is_stream ? "the deadline passed" : "the deadline passed before the call began");
   }
-  if (request.is_gone()) return absl::CancelledError("the caller gave up before the call began");
+  if (request.is_gone()) {
+    return absl::CancelledError(is_stream ? "the caller gave up" : "the caller gave up before the call began");
+  }
   has_computed = true;
   if (is_cheap) {
     work();

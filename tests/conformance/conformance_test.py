@@ -61,7 +61,8 @@ def grade(answers, *options):
             assert one.get(name, False) == two.get(name, False), (name, one, two)
         for name in ('energy', 'approach', 'cone', 'symmetry') if one['answered'] else ():
             assert one[name]['broken'] == two[name]['broken'], (name, one, two)
-            assert abs(one[name]['value'] - two[name]['value']) < 1e-9 * (1 + abs(one[name]['value'])), (name, one, two)
+            values = one[name]['value'], two[name]['value']
+            assert values == (None, None) or abs(values[0] - values[1]) < 1e-9 * (1 + abs(values[0])), (name, one, two)
     return found, command.returncode
 
 
@@ -194,6 +195,11 @@ class Grades(unittest.TestCase):
                                   'two-balls-and-a-wall': {'energy', 'approach'}})
         self.assertIn('the kinetic energy grows by 0.625 J', state(found, 'ball-drops-elastic')['complaint'])
 
+    def test_an_overflow_breaks_a_limit(self):
+        for speed in ('1e200', '1.7e308'):
+            found, _ = grade(f'case,law,velocity_after\npendulum-2-paper,,{speed}\n')
+            self.assertTrue(state(found, 'pendulum-2-paper')['energy']['broken'])
+
     def test_audit_says_the_same_of_energy_and_approach(self):
         for case in SINGLE[::7]:
             for factor in (0.5, 1.5):
@@ -248,6 +254,7 @@ class Grades(unittest.TestCase):
                 ({'answers': [{**row, 'case': ['rod-jams']}]}, 'must be'),
                 ({'answers': [{**row, 'law': None}]}, 'must be'),
                 ({'answers': [row], 'simulator': 5}, 'must be a text'),
+                ({'answers': [{**row, 'law': 'newton'}], 'law': 'Moreau'}, 'must be'),
                 ('# Nothing.\n', 'header'),
                 *((f'case,law,velocity_after\npendulum-2-paper,newton,{x}\n', 'must ')
                   for x in ('1_0', '\u0663', '1e400', '1e-400', '1/0', '0x1', '')),

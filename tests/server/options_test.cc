@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/limits.h"
@@ -157,12 +158,21 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                                         o.max_threads = 144;
                                       }},
                              GoodCase{"Places",
-                                      {.flags = {"--max-live-calls-per-peer", "5", "--max-streams", "6",
-                                                 "--max-streams-per-peer", "7"}},
+                                      {.flags = {"--max-live-calls-per-peer", "5", "--max-streams", "7",
+                                                 "--max-streams-per-peer", "6"}},
                                       [](Options& o) {
                                         o.live_calls = {
-                                            .calls = 1024, .calls_per_peer = 5, .streams = 6, .streams_per_peer = 7};
+                                            .calls = 1024, .calls_per_peer = 5, .streams = 7, .streams_per_peer = 6};
                                       }},
+                             GoodCase{"StreamsOfAPeerFollowStreams",
+                                      {.flags = {"--max-streams", "100"}},
+                                      [](Options& o) {
+                                        o.live_calls.streams = 100;
+                                        o.live_calls.streams_per_peer = 75;
+                                      }},
+                             GoodCase{"ConnectionsOfAPeerFollowConnections",
+                                      {.flags = {"--max-connections", "10"}},
+                                      [](Options& o) { o.connections = {.in_all = 10, .per_peer = 10}; }},
                              GoodCase{"Compute",
                                       {.flags = {"--compute-threads", "3", "--max-waiting-calls", "4"}},
                                       [](Options& o) {
@@ -419,12 +429,30 @@ TEST(Options, EveryNumberIsTakenFromItsLeastToItsMostAndNotBeyond) {
     const std::string below = is_time ? (least == "0" ? "-0.001" : "0.0004") : std::to_string(std::stoll(least) - 1);
     const std::string above = is_time ? "3600.001" : std::to_string(std::stoll(most) + 1);
     const auto is_taken = [&name](const std::string& value) {
-      return Parse("", {.flags = {"--" + name + "=" + value}}).ok();
+      std::vector<std::string> flags = {"--" + name + "=" + value};
+      // A part may be as large as the whole.
+      if (name == "max-streams-per-peer") flags.push_back("--max-streams=65536");
+      if (name == "max-live-calls-per-peer" || name.starts_with("max-streams"))
+        flags.push_back("--max-live-calls=65536");
+      if (name == "max-connections-per-peer") flags.push_back("--max-connections=1000000");
+      return Parse("", {.flags = flags}).ok();
     };
     for (const std::string& value : {least, most}) EXPECT_TRUE(is_taken(value)) << name << " " << value;
     for (const std::string& value : {below, above}) EXPECT_FALSE(is_taken(value)) << name << " " << value;
   }
   EXPECT_EQ(found, static_cast<int>(ranges.size()));
+}
+
+TEST(Options, APartBeyondItsWholeIsRefused) {
+  const char* const pairs[][2] = {{"max-live-calls-per-peer", "max-live-calls"},
+                                  {"max-streams", "max-live-calls"},
+                                  {"max-streams-per-peer", "max-streams"},
+                                  {"max-connections-per-peer", "max-connections"}};
+  for (const auto& [part, whole] : pairs) {
+    const auto parsed = Parse("", {.flags = {absl::StrCat("--", whole, "=10"), absl::StrCat("--", part, "=11")}});
+    EXPECT_THAT(std::string(parsed.status().message()),
+                testing::HasSubstr(absl::StrCat("--", part, " = 11: must be <= 10, that of --", whole)));
+  }
 }
 
 TEST(Options, PermissionsAreThoseOfNineBits) {

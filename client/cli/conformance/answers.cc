@@ -94,7 +94,9 @@ absl::Status ParseWithoutTwins(const std::string& text, const std::string& name,
     return absl::InvalidArgumentError(absl::StrCat(name, ": ", twin, " is given twice in one object"));
   } catch (const Json::parse_error& error) {
     return absl::InvalidArgumentError(
-        absl::StrCat(name, " is not JSON from byte ", error.byte, " of ", text.size(), " on; is it whole?"));
+        error.byte > text.size()
+            ? absl::StrCat(name, " ends within its JSON, at byte ", text.size(), "; is it whole?")
+            : absl::StrCat(name, " is not JSON from byte ", error.byte, " of ", text.size(), " on; is it whole?"));
   } catch (const Json::exception&) {  // The only other one is that of a number.
     return absl::InvalidArgumentError(absl::StrCat(name, " has a number that exceeds the largest double"));
   }

@@ -23,10 +23,11 @@ constexpr double kRounding = 0x1p-46;
 
 double Largest(const VectorXd& x) { return x.lpNorm<Eigen::Infinity>(); }
 
+// An excess that overflows breaks the limit.
 LimitCheck Check(double value, double excess, double allowance) {
-  const Verdict exceeded = excess > allowance ? Verdict::kBroken : Verdict::kWithinUncertainty;
-  return {
-      .value = value, .excess = excess, .allowance = allowance, .verdict = excess > 0.0 ? exceeded : Verdict::kKept};
+  const bool is_broken = excess > allowance || !std::isfinite(excess);
+  const Verdict verdict = is_broken ? Verdict::kBroken : excess > 0.0 ? Verdict::kWithinUncertainty : Verdict::kKept;
+  return {.value = value, .excess = excess, .allowance = allowance, .verdict = verdict};
 }
 
 LimitCheck EnergyCheck(const ConformanceCase& one, const VectorXd& after, double tolerance) {

@@ -68,6 +68,11 @@ absl::StatusOr<std::string> BytesOf(zip_t* archive, const std::string& name) {
   if (file == nullptr || zip_fread(file.get(), bytes.data(), bytes.size()) != static_cast<zip_int64_t>(bytes.size())) {
     return absl::InvalidArgumentError(absl::StrCat(name, " cannot be unpacked"));
   }
+  // libzip compares the checksum where the end is read.
+  char beyond = 0;
+  if (zip_fread(file.get(), &beyond, 1) != 0) {
+    return absl::InvalidArgumentError(absl::StrCat(name, " is damaged: its checksum is wrong"));
+  }
   return bytes;
 }
 

@@ -19,6 +19,12 @@ namespace {
 constexpr size_t kShownRows = 40;
 constexpr size_t kShownShares = 3;
 
+// A residual in sigmas.
+std::string ResidualText(double residual) {
+  constexpr double kMostInFigures = 1e6;
+  return std::fabs(residual) < kMostInFigures ? absl::StrFormat("%.2f", residual + 0.0) : Rounded(residual);
+}
+
 std::string EndText(const FitEnd& end) {
   switch (end.kind) {
     case FitEndKind::kFound:
@@ -81,7 +87,7 @@ std::string ResidualsText(const FitRequest& request, const FitResponse& response
   for (size_t row = 0; row < shown; ++row) {
     std::vector<std::string> cells = {absl::StrCat(row), RegimeText(response.rows[row].regime)};
     for (const double residual : response.rows[row].residuals) {
-      cells.push_back(std::isnan(residual) ? "" : absl::StrFormat("%.2f", residual + 0.0));
+      cells.push_back(std::isnan(residual) ? "" : ResidualText(residual));
     }
     table.Add(std::move(cells));
   }
@@ -95,7 +101,7 @@ std::string NotesText(const FitResponse& response) {
   std::string text;
   for (const FitOutlier& outlier : response.outliers) {
     absl::StrAppend(&text, "  Row ", outlier.row, " is an outlier: ", outlier.path, " lies ",
-                    absl::StrFormat("%.1f", outlier.residual), " sigma from the fit.\n");
+                    ResidualText(outlier.residual), " sigma from the fit.\n");
   }
   for (const std::string& note : response.notes) absl::StrAppend(&text, "  ", note, "\n");
   return text.empty() ? "" : absl::StrCat("\nNotes\n", text);

@@ -39,7 +39,7 @@ absl::Status AddCell(const Json& cell, size_t place, const std::string& name, Sw
 // Makes rows of JSON values: the cells of a point, by their names or by their places.
 class Points {
  public:
-  explicit Points(const std::vector<std::string>& wanted) : wanted_(wanted) {}
+  explicit Points(std::vector<std::string> wanted) : wanted_(std::move(wanted)) {}
 
   absl::Status SetNames(std::vector<std::string> names) {
     absl::StatusOr<SweepRows> rows = SweepRows::Create(names, wanted_);

@@ -34,7 +34,7 @@ inline constexpr int64_t kMostAuditRows = 8192;
 // they, have the columns of the second tangential direction. Velocities are those of the contact relative to the
 // surface; a pendulum or a linkage may state its rates after the impact in place of the velocities after it.
 struct AuditColumns {
-  std::vector<double> tangential_m_s;  // Velocity before the impact; if all three are empty, the scene's own holds.
+  std::vector<double> tangential_m_s;  // Velocity before the impact; an empty column leaves that of the scene.
   std::vector<double> tangential_2_m_s;
   std::vector<double> normal_m_s;
   std::vector<double> tangential_after_m_s;

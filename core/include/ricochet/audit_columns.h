@@ -11,7 +11,7 @@ namespace ricochet {
 
 // The kind of number that a column states, which decides whether a request must have it.
 enum class AuditColumnPart {
-  kBefore,  // The velocity before the impact: either all of it is stated or the scene's own holds.
+  kBefore,  // The velocity before the impact: that of the scene where it is not stated.
   kAfter,   // The velocity after the impact: it is stated here or by the rates.
   kOption,  // May be left out.
 };

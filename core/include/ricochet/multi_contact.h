@@ -209,8 +209,8 @@ enum class MultiContactVerdict {
 };
 
 struct RefusedMethod {
-  MultiContactMethod method = MultiContactMethod::kUnspecified;
-  std::string reason;
+  MultiContactMethod method = MultiContactMethod::kUnspecified;  // One that the scene does not allow,
+  std::string reason;                                            // or outcomes that the answer leaves out.
   friend bool operator==(const RefusedMethod&, const RefusedMethod&) = default;
 };
 

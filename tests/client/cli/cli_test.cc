@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "absl/strings/str_cat.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/v1/impact_service.pb.h"
 #include "tests/client/cli/cli_run.h"
@@ -541,6 +542,27 @@ TEST_F(Cli, ASweepAboveTheServersLimitFails) {
   const CliResult result = RunShell(Sweep("1001", "--server " + server.address()));
   EXPECT_EQ(result.exit_code, 42);
   EXPECT_THAT(result.err, HasSubstr("RESOURCE_EXHAUSTED"));
+}
+
+TEST_F(Cli, RowsAboveTheServersLimitAreAskedInParts) {
+  const ServerProcess server({"--max-batch-numbers", "10", "--max-audit-rows", "2"});
+  std::string impacts = "mu\n", observed = "rates_after_rad_s[0]\n";
+  for (int i = 0; i < 12; ++i) {
+    impacts += absl::StrCat(0.01 * i, "\n");
+    observed += absl::StrCat(0.1 * i, "\n");
+  }
+  Write("impacts.csv", impacts);
+  Write("observed.csv", observed);
+  const std::string pendulum = " --a 0.3 --b 1 --mu 0.1 --energetic 1";
+  const std::string commands[] = {"solve" + pendulum + " --data impacts.csv --column newton",
+                                  "audit --a 0.3 --b 1 --mu 0.1 --data observed.csv"};
+  for (const std::string& command : commands) {
+    const CliResult here = RunShell("\"$R\" " + command + " --format csv");
+    const CliResult there = RunShell("\"$R\" " + command + " --format csv --server " + server.address());
+    ASSERT_EQ(here.exit_code, 0) << here.err;
+    EXPECT_EQ(there.exit_code, 0) << there.err;
+    EXPECT_EQ(there.out, here.out);
+  }
 }
 
 TEST_F(Cli, HealthIsZeroOnlyWhereServing) {

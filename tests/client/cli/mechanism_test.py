@@ -74,6 +74,11 @@ class MechanismTest(RicochetCase):
                 (["solve", "--a", "1", "--keep", "1"], "--keep and --composite need --mechanism")]:
             with self.subTest(words=words):
                 self.assertIn(words, self.refused(*arguments))
+        self.saved("damaged.npz")
+        archive = bytearray((WORK / "damaged.npz").read_bytes())
+        archive[archive.index(QDOT.tobytes()) + 6] ^= 1
+        (WORK / "damaged.npz").write_bytes(archive)
+        self.assertIn("qdot is damaged: its checksum is wrong", self.refused("solve", "--mechanism", "damaged.npz", *LAW))
         (WORK / "text.npz").write_text("M J qdot")
         self.assertIn("must be a file that numpy.savez has written", self.refused("solve", "--mechanism", "text.npz"))
 

@@ -330,6 +330,60 @@ TEST(DifferencesTest, HertzSpringHasThePowersOfItsScaling) {
   EXPECT_NEAR(*by_v.value * -3.0 / duration, -0.2, 1e-7);
 }
 
+// A quotient of two outcomes as wide apart as half their digits allow.
+double Quotient(const Scene& scene, const std::string& of, const std::string& by) {
+  constexpr double kStep = 1e-6;
+  BatchSetup setup = {.scene = scene, .fields = {by}, .columns = {of}};
+  const double at = *NumberAt(scene, by);
+  const std::vector<double> in = {at - kStep, at + kStep};
+  std::vector<double> out(2);
+  EXPECT_TRUE(LocalSolver().SolveBatch(setup, {.inputs = {in}, .outputs = {absl::MakeSpan(out)}}).ok());
+  return (out[1] - out[0]) / (2.0 * kStep);
+}
+
+// The peak of the force moves to another phase of the impact at a ten thousandth of the friction beside the scene.
+TEST(DifferencesTest, NoQuotientReachesAcrossAPeakThatMovesNearby) {
+  const PlanarBody upper = {.mass_kg = 1.0,
+                            .inertia_com_kg_m2 = 0.1,
+                            .offset_t_m = 0.1,
+                            .offset_n_m = -0.3,
+                            .velocity_t_m_s = 1.0,
+                            .velocity_n_m_s = -2.0,
+                            .rate_rad_s = 0.5};
+  const PlanarBody lower = {.mass_kg = 2.0,
+                            .inertia_com_kg_m2 = 0.1,
+                            .offset_t_m = 0.2,
+                            .offset_n_m = 0.3,
+                            .velocity_t_m_s = 0.1,
+                            .velocity_n_m_s = 0.3,
+                            .rate_rad_s = -0.5};
+  const Scene scene = {.system = BodyPair{PlanarPair{upper, lower}},
+                       .friction = {.kinetic_coefficient = 0.3},
+                       .compliance = Compliance{.normal = HuntCrossleySpring{1e6, 1.5, 0.3}}};
+  const std::string peak = "contact.peak_normal_n";
+  for (const std::string by : {kMu, "body_pair.planar.body_1.mass_kg", "body_pair.planar.body_1.offset_t_m"}) {
+    const Derivative derivative = Only(scene, peak, by);
+    ASSERT_TRUE(derivative.value.has_value()) << by;
+    EXPECT_NEAR(*derivative.value, Quotient(scene, peak, by), 1e-4 * std::fabs(*derivative.value)) << by;
+  }
+}
+
+// The impulses of such an impact have estimated errors only, from which no error of the rates is proved.
+TEST(DifferencesTest, RatesOfAMechanismOnATangentialSpringHaveDerivatives) {
+  const Scene scene = {
+      .system = Mechanism{.mass_matrix = {2.0, 0.3, 0.3, 1.5}, .jacobian = {1.0, 0.5, 0.2, 0.7}, .rates = {0.4, -1.9}},
+      .friction = {.kinetic_coefficient = 0.3},
+      .restitution = EnergeticCoefficient{0.7},
+      .compliance = Compliance{.tangential_ratio_squared = 1.2}};
+  for (const std::string by : {kMu, "restitution.energetic"}) {
+    for (const std::string of : {"rates_after[0]", "rates_after[1]"}) {
+      const Derivative derivative = Only(scene, of, by);
+      ASSERT_TRUE(derivative.value.has_value()) << of << by;
+      EXPECT_NEAR(*derivative.value, Quotient(scene, of, by), 1e-7) << of << by;
+    }
+  }
+}
+
 TEST(DifferencesTest, ImpactLawIsItsFormula) {
   Scene scene = Dropped(std::monostate());
   scene.compliance.reset();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <random>
 
-#include "core/fit/fit.h"
 #include "tests/core/fit/fit_cases.h"
 
 namespace ricochet::fit {

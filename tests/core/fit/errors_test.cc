@@ -8,7 +8,6 @@
 #include <limits>
 #include <string>
 
-#include "core/fit/fit.h"
 #include "ricochet/error.h"
 #include "tests/core/fit/fit_cases.h"
 

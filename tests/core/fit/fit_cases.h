@@ -5,15 +5,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
-#include "core/engine/parallel_batch.h"
-#include "core/fit/fit.h"
+#include "core/engine/fit_run.h"
 #include "ricochet/fit.h"
 #include "ricochet/solver.h"
 
@@ -32,11 +30,7 @@ struct Case {
 
 // Fits on this thread alone.
 inline absl::StatusOr<FitResponse> Fit(const FitRequest& request, absl::FunctionRef<bool()> stopped) {
-  const auto open_rows = [](CheckedBatch batch) -> SolveRows {
-    return [rows = std::make_unique<ParallelBatch>(std::move(batch), nullptr)](
-               const BatchRows& all, absl::FunctionRef<bool()> is_stopped) { return rows->Solve(all, is_stopped); };
-  };
-  return FitScene(request, open_rows, stopped);
+  return RunFit(request, nullptr, stopped);
 }
 
 // The request that a case makes without noise.

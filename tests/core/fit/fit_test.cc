@@ -1,13 +1,12 @@
 // Fits of impacts whose truth is known, and what a fit says of data that tell nothing.
 
-#include "core/fit/fit.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/fit/information.h"
 #include "ricochet/solver.h"
@@ -254,6 +253,92 @@ TEST(FitTest, TheRegionOfTwoSurroundsTheBestFit) {
   ASSERT_EQ(response.region.size(), 48);
   for (const FitRegionPoint& point : response.region) EXPECT_EQ(point.kind, FitEndKind::kFound);
   EXPECT_GT(response.region[0].x, *response.unknowns[0].high.value);  // Two degrees of freedom reach further than one.
+}
+
+// chi2 of a request with its unknowns at given values, from single solutions.
+double ChiSquaredAt(const FitRequest& request, const std::vector<double>& at) {
+  BatchSetup setup = {.scene = request.scene};
+  std::vector<std::vector<double>> in, out;
+  const size_t rows = request.measured.front().values.size();
+  for (size_t k = 0; k < at.size(); ++k) {
+    setup.fields.push_back(request.unknowns[k].path);
+    in.emplace_back(rows, at[k]);
+  }
+  for (const FitInput& input : request.inputs) {
+    setup.fields.push_back(input.path);
+    in.push_back(input.values);
+  }
+  for (const FitMeasured& measured : request.measured) {
+    setup.columns.push_back(measured.path);
+    out.emplace_back(rows);
+  }
+  BatchRows batch = {.inputs = {in.begin(), in.end()}, .outputs = {out.begin(), out.end()}};
+  EXPECT_TRUE(LocalSolver().SolveBatch(setup, batch).ok());
+  double sum = 0.0;
+  for (size_t c = 0; c < out.size(); ++c) {
+    for (size_t row = 0; row < rows; ++row) {
+      const double residual = (request.measured[c].values[row] - out[c][row]) / request.measured[c].sigma[0];
+      sum += residual * residual;
+    }
+  }
+  return sum;
+}
+
+// The more friction, the better do all rows that stick fit, and the less does any further friction change.
+TEST(FitTest, AnEstimateThatRunsOffKeepsItsFiniteEnd) {
+  FitRequest request = {.scene = {.system = PlanarContact{2.0, 0.2, 1.0}, .restitution = EnergeticCoefficient{0.5}},
+                        .unknowns = {{.path = "friction.kinetic_coefficient", .start = 0.3}},
+                        .inputs = {{"planar_contact.tangential_m_s", {1.0, -1.0, 0.5}},
+                                   {"planar_contact.normal_m_s", {-1.5, -2.0, -1.0}}},
+                        .measured = {{"contact_velocity_after.normal_m_s", {0.82, 0.95, 0.53}, {0.02}}}};
+  const FitResponse response = *Fit(request, Never);
+  const FitEnd& low = response.unknowns[0].low;
+  ASSERT_EQ(low.kind, FitEndKind::kFound);
+  EXPECT_NEAR(ChiSquaredAt(request, {*low.value}) - ChiSquaredAt(request, {1e9}), 3.841458820694124, 1e-3);
+}
+
+// Where friction locks the pendulum, any coefficient fits.
+TEST(FitTest, AnIntervalGoesOnWhereAnotherUnknownLeavesItsBestValue) {
+  for (const double friction : {0.3, 0.5}) {
+    FitRequest request = {
+        .scene = {.system = Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.3}, .restitution = NewtonCoefficient{0.5}},
+        .unknowns = {{.path = "friction.kinetic_coefficient", .start = friction}, {.path = "restitution.newton"}},
+        .inputs = {{"pendulum.b_m", {0.85, 0.98, 0.80}}, {"pendulum.omega_minus_rad_s", {-2.0, -4.5, -2.0}}},
+        .measured = {{"rates_after_rad_s[0]", {0.013, 0.028, 0.002}, {0.02}}}};
+    const FitResponse response = *Fit(request, Never);
+    ASSERT_LT(ChiSquaredAt(request, {0.5, 0.9}) - response.chi2, 3.84);
+    EXPECT_EQ(response.unknowns[1].high.kind, FitEndKind::kUnbounded) << friction;
+  }
+}
+
+// The angles at which the data fit lie in a valley that is a hundredth wide.
+TEST(FitTest, ANarrowValleyIsFoundFromNearbyAndAnAngleIsThatNextToItsStart) {
+  Scene chain = {.system = Linkage{.links = {{.length_m = 1.0,
+                                              .mass_kg = 1.0,
+                                              .com_m = 0.5,
+                                              .inertia_com_kg_m2 = 0.09,
+                                              .theta_rad = 0.5,
+                                              .rate_rad_s = -0.5},
+                                             {.length_m = 0.8,
+                                              .mass_kg = 0.7,
+                                              .com_m = 0.3,
+                                              .inertia_com_kg_m2 = 0.05,
+                                              .theta_rad = 0.9,
+                                              .rate_rad_s = -1.5}}},
+                 .friction = {.kinetic_coefficient = 0.7423795316495276},
+                 .restitution = EnergeticCoefficient{0.7946213634931437}};
+  for (const double start : {0.45, 0.4712, 0.5, 0.52}) {
+    const FitRequest request = {
+        .scene = chain,
+        .unknowns = {{.path = "linkage.links[0].theta_rad", .start = start}},
+        .inputs = {{"linkage.links[1].theta_rad", {1.1544, 0.50638, 0.47669, 0.45241, 0.36307, 0.71218}}},
+        .measured = {{"rates_after_rad_s[0]", {-0.66007, -0.83291, 0.72487, 0.70549, 0.68902, -0.84458}, {0.02}},
+                     {"rates_after_rad_s[1]", {1.8374, 1.0221, -0.83933, -0.85179, -0.76323, 1.3986}, {0.02}}}};
+    const FitResponse response = *Fit(request, Never);
+    EXPECT_FALSE(response.refused) << start;
+    EXPECT_NEAR(response.unknowns[0].value, 0.50638, 2e-3) << start;
+    EXPECT_LT(response.chi2, 8.0) << start;
+  }
 }
 
 TEST(FitTest, AStopEndsIt) {

@@ -213,6 +213,63 @@ TEST(HardMultiContactTest, ContactsWhoseMassesDifferBy138PowersOfTen) {
   for (const PossibleRange& range : answer.possible) EXPECT_LE(range.lower, range.upper) << range.output;
 }
 
+// Balls of 1 kg in a row on the right of a wall, which all touch, with these speeds. The last contact is the wall's.
+MultiContactScene BallsAtAWall(const std::vector<double>& speeds) {
+  MultiContactScene scene;
+  FreeBodies bodies;
+  for (size_t i = 0; i < speeds.size(); ++i) {
+    const double x = static_cast<double>(i);
+    const auto number = static_cast<int32_t>(i + 1);
+    bodies.bodies.push_back(
+        {.mass_kg = 1.0, .inertia_com_kg_m2 = {1.0}, .position_m = {x, 0.0}, .linear_m_s = {speeds[i], 0.0}});
+    scene.contacts.push_back(
+        {.energetic = 1.0, .body = number, .other_body = number - 1, .point_m = {x - 0.5, 0.0}, .normal = {1.0, 0.0}});
+  }
+  scene.system = bodies;
+  return scene;
+}
+
+// Whatever comes first, elastic balls that are equal exchange their speeds until they are sorted.
+TEST(HardMultiContactTest, ATreeThatTheBudgetHoldsIsFollowedToItsEnds) {
+  const MultiContactAnswer answer =
+      LocalSolver()
+          .MultiContact({.scene = BallsAtAWall({-1.0, -2.0, -3.0, -4.0}), .methods = {MultiContactMethod::kOrders}})
+          .value()
+          .answers.front();
+  EXPECT_EQ(answer.verdict, MultiContactVerdict::kOrdersAgree);
+  ASSERT_EQ(answer.orders.size(), 1U);
+  EXPECT_EQ(answer.orders.front().end, MultiContactEnd::kSeparated);
+  for (size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(answer.orders.front().velocity[3 * i], 1.0 + static_cast<double>(i), 1e-12);
+}
+
+// With one contact that is not elastic, the two orders below end apart.
+TEST(HardMultiContactTest, OrdersThatWereNotFollowedDoNotAgree) {
+  MultiContactScene scene = BallsAtAWall({2.0, -1.0, 1.0, -2.0, -2.0});
+  scene.contacts[4].energetic = 0.5;
+  const MultiContactAnswer answer = LocalSolver().MultiContact({.scene = scene}).value().answers.front();
+  EXPECT_EQ(answer.verdict, MultiContactVerdict::kOrderMatters);
+  for (const std::vector<double>& end :
+       {std::vector<double>{0.6875, 1.0, 1.25, 1.671875, 1.890625}, std::vector<double>{1.0, 1.0, 1.0, 1.25, 1.75}}) {
+    EXPECT_TRUE(std::any_of(answer.orders.begin(), answer.orders.end(), [&end](const AttainedOutcome& outcome) {
+      for (size_t i = 0; i < end.size(); ++i) {
+        if (std::fabs(outcome.velocity[3 * i] - end[i]) > 1e-12) return false;
+      }
+      return true;
+    })) << end[0];
+  }
+}
+
+TEST(HardMultiContactTest, OutcomesThatAreLeftOutAreSaid) {
+  MultiContactScene scene = BallsAtAWall({3.0, 1.0, 0.0, -1.0, -3.0, -4.0});
+  for (size_t i = 0; i < scene.contacts.size(); ++i) scene.contacts[i].energetic = 1.0 - 0.07 * static_cast<double>(i);
+  const MultiContactAnswer answer =
+      LocalSolver().MultiContact({.scene = scene, .methods = {MultiContactMethod::kOrders}}).value().answers.front();
+  ASSERT_EQ(answer.orders.size(), kMostOutcomes);
+  ASSERT_EQ(answer.refused.size(), 1U);
+  EXPECT_EQ(answer.refused[0].reason, "outcomes of orders beyond the first 256");
+}
+
 // A pendulum whose tip locks: k = 1 is the planar model, which says that it stays.
 TEST(HardMultiContactTest, ALockedPendulumStays) {
   Problem locked = {.d = 2, .k = 1, .w = Eigen::MatrixXd(2, 2), .v = Vector(2), .laws = {{.mu = 1.0, .e = 1.0}}};

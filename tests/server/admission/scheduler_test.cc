@@ -174,6 +174,14 @@ TEST_F(SchedulerTest, CallWhoseDeadlinePassesWhileItWaitsIsNeverComputed) {
   EXPECT_EQ(scheduler_.waiting(), 0U);
 }
 
+// A stream has sent chunks before the part that its deadline ends.
+TEST_F(SchedulerTest, PartOfAStreamDoesNotSayThatTheCallNeverBegan) {
+  ComputeRequest turn = TurnOf("a", std::nullopt);
+  turn.deadline = steady_clock::now() - milliseconds(1);
+  EXPECT_EQ(scheduler_.Compute(turn, [] { FAIL() << "it was computed"; }),
+            absl::DeadlineExceededError("the deadline passed"));
+}
+
 TEST_F(SchedulerTest, CallWhoseDeadlineHasPassedIsNeverComputed) {
   for (const RequestCost& cost : {kCheap, kExpensive}) {
     ComputeRequest turn = TurnOf("a", cost);

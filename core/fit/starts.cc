@@ -1,0 +1,93 @@
+#include "core/fit/starts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/fit/search.h"
+#include "core/numerics/elementary.h"
+
+namespace ricochet::fit {
+namespace {
+
+// A model without exact derivatives has so many times fewer places.
+constexpr int kFewer = 16;
+// So many rows are solved at once.
+constexpr size_t kRowsAtOnce = size_t{1} << 18;
+
+// Fractional parts of multiples of the generalized golden ratio, one for each unknown: the points of all numbers fill
+// the cube evenly, and number 0 is its centre.
+std::vector<double> PartsOf(int number, size_t unknowns) {
+  double ratio = 2.0;
+  for (int i = 0; i < 40; ++i) ratio = Pow(1.0 + ratio, 1.0 / (static_cast<double>(unknowns) + 1.0));
+  std::vector<double> parts(unknowns);
+  double step = 1.0;
+  for (double& part : parts) {
+    step /= ratio;
+    const double place = 0.5 + number * step;
+    part = place - std::floor(place);
+  }
+  return parts;
+}
+
+bool HasBounds(const Problem& problem, size_t k) { return std::isfinite(problem.high[k] - problem.low[k]); }
+
+// The place in the direction `part`, from -1 to 1.
+double Beside(const Problem& problem, double centre, double part, size_t k) {
+  const double low = problem.low[k], high = problem.high[k];
+  if (HasBounds(problem, k)) return std::clamp(centre + part * (part < 0.0 ? centre - low : high - centre), low, high);
+  const double place = centre != 0.0 ? centre * Exp(4.0 * part * std::numbers::ln2) : 4.0 * part * problem.scale[k];
+  return std::clamp(place, low, high);
+}
+
+}  // namespace
+
+std::vector<double> StartOf(const Problem& problem, int number) {
+  std::vector<double> start = problem.start;
+  if (number == 0) return start;
+  const std::vector<double> parts = PartsOf(number, start.size());
+  for (size_t k = 0; k < start.size(); ++k) {
+    const double low = problem.low[k], high = problem.high[k];
+    if (HasBounds(problem, k)) {
+      start[k] = low + parts[k] * (high - low);
+    } else {
+      const double spread = 2.0 * parts[k] - 1.0;
+      start[k] = std::clamp(start[k] != 0.0 ? start[k] * Exp(2.0 * spread * std::numbers::ln2) : spread, low, high);
+    }
+  }
+  return start;
+}
+
+std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, const std::vector<bool>& is_free,
+                                            int count, size_t most, Model& model) {
+  const Problem& problem = model.problem();
+  if (!problem.why_differences.empty()) count /= kFewer;
+  std::vector<std::vector<double>> places;
+  for (int number = 1; number <= count; ++number) {
+    std::vector<double>& place = places.emplace_back(centre);
+    const std::vector<double> parts = PartsOf(number, centre.size());
+    for (size_t k = 0; k < place.size(); ++k) {
+      const double side = 2.0 * parts[k] - 1.0;
+      if (is_free[k]) place[k] = Beside(problem, centre[k], side * side * side, k);
+    }
+  }
+  std::vector<double> objectives;
+  const size_t at_once = std::max<size_t>(1, kRowsAtOnce / problem.rows);
+  for (size_t first = 0; first < places.size(); first += at_once) {
+    const auto begin = places.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = begin + static_cast<std::ptrdiff_t>(std::min(at_once, places.size() - first));
+    const std::vector<double> of_these = ObjectivesAt({begin, end}, model);
+    objectives.insert(objectives.end(), of_these.begin(), of_these.end());
+  }
+  std::vector<size_t> order(places.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return objectives[a] < objectives[b]; });
+  std::vector<std::vector<double>> best;
+  for (size_t i = 0; i < std::min(most, order.size()) && std::isfinite(objectives[order[i]]); ++i) {
+    best.push_back(places[order[i]]);
+  }
+  return best;
+}
+
+}  // namespace ricochet::fit

@@ -1,0 +1,26 @@
+// Starts: the places from which a fit is sought.
+
+#ifndef RICOCHET_CORE_FIT_STARTS_H_
+#define RICOCHET_CORE_FIT_STARTS_H_
+
+#include <cstddef>
+#include <vector>
+
+#include "core/fit/model.h"
+#include "core/fit/problem.h"
+
+namespace ricochet::fit {
+
+// The start of search `number`, from 0. The first is that of the problem. The others are spread evenly: over the
+// bounds, or from a quarter to four times the first without two of them.
+std::vector<double> StartOf(const Problem& problem, int number);
+
+// Looks at `count` places around `centre`, the denser the nearer to it, and returns those `most` that fit best, the best
+// first; a model without exact derivatives, which takes up to milliseconds for a row, has fewer places. They lie within the bounds, or without two of them from a sixteenth to sixteen times the centre. Unknowns that
+// are not free stay where they are.
+std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, const std::vector<bool>& is_free,
+                                            int count, size_t most, Model& model);
+
+}  // namespace ricochet::fit
+
+#endif  // RICOCHET_CORE_FIT_STARTS_H_
