@@ -353,21 +353,15 @@ void CheckTls(const Options& options, std::vector<std::string>& violations) {
 
 // A limit that another one never lets be reached is a mistake.
 void CheckLimitsFit(const Options& options, std::vector<std::string>& violations) {
-  const struct {
-    const char* part;
-    int limit;
-    const char* whole;
-    int most;
-  } pairs[] = {
-      {"max-live-calls-per-peer", options.live_calls.calls_per_peer, "max-live-calls", options.live_calls.calls},
-      {"max-streams", options.live_calls.streams, "max-live-calls", options.live_calls.calls},
-      {"max-streams-per-peer", options.live_calls.streams_per_peer, "max-streams", options.live_calls.streams},
-      {"max-connections-per-peer", options.connections.per_peer, "max-connections", options.connections.in_all},
-  };
-  for (const auto& [part, limit, whole, most] : pairs) {
-    if (limit <= most) continue;
+  const auto check = [&violations](const char* part, int limit, const char* whole, int most) {
+    if (limit <= most) return;
     violations.push_back(Violated(part, absl::StrCat(limit), absl::StrCat("must be <= ", most, ", that of --", whole)));
-  }
+  };
+  const LiveCallLimits& calls = options.live_calls;
+  check("max-live-calls-per-peer", calls.calls_per_peer, "max-live-calls", calls.calls);
+  check("max-streams", calls.streams, "max-live-calls", calls.calls);
+  check("max-streams-per-peer", calls.streams_per_peer, "max-streams", calls.streams);
+  check("max-connections-per-peer", options.connections.per_peer, "max-connections", options.connections.in_all);
 }
 
 void CheckTogether(const Options& options, std::vector<std::string>& violations) {

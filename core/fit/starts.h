@@ -15,9 +15,9 @@ namespace ricochet::fit {
 // bounds, or from a quarter to four times the first without two of them.
 std::vector<double> StartOf(const Problem& problem, int number);
 
-// Looks at `count` places around `centre`, the denser the nearer to it, and returns those `most` that fit best, the best
-// first; a model without exact derivatives, which takes up to milliseconds for a row, has fewer places. They lie within the bounds, or without two of them from a sixteenth to sixteen times the centre. Unknowns that
-// are not free stay where they are.
+// Looks at `count` places around `centre`, the denser the nearer to it, and returns the `most` that fit best, the best
+// first; of a model without exact derivatives, which takes up to milliseconds for a row, at fewer. They lie within the
+// bounds, or without two of them from a sixteenth to sixteen times the centre. Unknowns that are not free stay.
 std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, const std::vector<bool>& is_free,
                                             int count, size_t most, Model& model);
 

@@ -25,8 +25,8 @@ struct LiveCallLimits {
   friend bool operator==(const LiveCallLimits&, const LiveCallLimits&) = default;
 };
 
-// The limits that go with others, unless they are asked for: one peer leaves an eighth of the calls and a quarter of the
-// streams to others, and streams leave three quarters of the calls to unary calls. `calls` and `streams` are >= 1.
+// The limits that go with others, unless they are asked for: one peer leaves an eighth of the calls and a quarter of
+// the streams to others, and streams leave three quarters of the calls to unary calls. `calls` and `streams` are >= 1.
 constexpr int CallsPerPeerFor(int calls) { return calls - calls / 8; }
 constexpr int StreamsFor(int calls) { return calls < 4 ? 1 : calls / 4; }
 constexpr int StreamsPerPeerFor(int streams) { return streams - streams / 4; }

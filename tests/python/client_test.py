@@ -233,11 +233,12 @@ class Options(unittest.TestCase):
         server = Ricochetd("--max-batch-numbers", "10", "--max-audit-rows", "2")
         self.addCleanup(server.stop)
         fields, columns = {"mu": np.linspace(0, 0.2, 25)}, ["newton", "impulse.normal_total_n_s"]
-        rates = {"rates_after": [[0.1 * i] for i in range(5)]}
+        rates = {"rates_after": [np.linspace(0, 0.4, 5)]}
         with ricochet.Client() as here, ricochet.Client(server.address) as there:
             expected = here.solve_batch(PENDULUM, fields, columns)
             answer = there.solve_batch(PENDULUM, fields, columns)
-            self.assertEqual([answer[name].tobytes() for name in answer], [expected[name].tobytes() for name in expected])
+            for name in columns:
+                self.assertEqual(answer[name].tobytes(), expected[name].tobytes())
             self.assertEqual(answer.summary.counts.points, 25)
             self.assertEqual(len(there.audit_batch(PENDULUM, rates)), 5)
 

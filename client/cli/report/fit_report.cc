@@ -19,10 +19,10 @@ namespace {
 constexpr size_t kShownRows = 40;
 constexpr size_t kShownShares = 3;
 
-// A residual in sigmas.
-std::string ResidualText(double residual) {
-  constexpr double kMostInFigures = 1e6;
-  return std::fabs(residual) < kMostInFigures ? absl::StrFormat("%.2f", residual + 0.0) : Rounded(residual);
+// A residual in sigmas, with so many digits behind the point unless it is large.
+std::string ResidualText(double residual, int digits) {
+  constexpr double kLarge = 1e6;
+  return std::fabs(residual) < kLarge ? absl::StrFormat("%.*f", digits, residual + 0.0) : Rounded(residual);
 }
 
 std::string EndText(const FitEnd& end) {
@@ -87,7 +87,7 @@ std::string ResidualsText(const FitRequest& request, const FitResponse& response
   for (size_t row = 0; row < shown; ++row) {
     std::vector<std::string> cells = {absl::StrCat(row), RegimeText(response.rows[row].regime)};
     for (const double residual : response.rows[row].residuals) {
-      cells.push_back(std::isnan(residual) ? "" : ResidualText(residual));
+      cells.push_back(std::isnan(residual) ? "" : ResidualText(residual, 2));
     }
     table.Add(std::move(cells));
   }
@@ -101,7 +101,7 @@ std::string NotesText(const FitResponse& response) {
   std::string text;
   for (const FitOutlier& outlier : response.outliers) {
     absl::StrAppend(&text, "  Row ", outlier.row, " is an outlier: ", outlier.path, " lies ",
-                    ResidualText(outlier.residual), " sigma from the fit.\n");
+                    ResidualText(outlier.residual, 1), " sigma from the fit.\n");
   }
   for (const std::string& note : response.notes) absl::StrAppend(&text, "  ", note, "\n");
   return text.empty() ? "" : absl::StrCat("\nNotes\n", text);
