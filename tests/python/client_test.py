@@ -239,7 +239,7 @@ class Options(unittest.TestCase):
             answer = there.solve_batch(PENDULUM, fields, columns)
             for name in columns:
                 self.assertEqual(answer[name].tobytes(), expected[name].tobytes())
-            self.assertEqual(answer.summary.counts.points, 25)
+            self.assertEqual(answer.summary.rows, 25)
             self.assertEqual(len(there.audit_batch(PENDULUM, rates)), 5)
 
 
