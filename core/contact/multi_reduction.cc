@@ -203,8 +203,12 @@ double DistanceFromRange(const Eigen::MatrixXd& w, const Eigen::VectorXd& v, con
     if (scales(i) == 0.0 && v(i) != 0.0) return kInfinity;
   }
   const Eigen::MatrixXd scaled = scales.asDiagonal() * w * scales.asDiagonal();
-  const Eigen::VectorXd x = scales.asDiagonal() * v;
-  const double norm = (scales.asDiagonal() * sizes).stableNorm();
+  // Products with the smallest doubles would vanish.
+  const double largest = sizes.size() > 0 ? sizes.maxCoeff() : 0.0;
+  const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
+  const auto raised = [exponent](double number) { return std::scalbn(number, exponent); };
+  const Eigen::VectorXd x = scales.asDiagonal() * v.unaryExpr(raised);
+  const double norm = (scales.asDiagonal() * sizes.unaryExpr(raised)).stableNorm();
   if (norm == 0.0) return 0.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
   Eigen::VectorXd outside = Eigen::VectorXd::Zero(v.size());

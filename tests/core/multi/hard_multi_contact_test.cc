@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/multi/energy.h"
@@ -268,6 +269,22 @@ TEST(HardMultiContactTest, OutcomesThatAreLeftOutAreSaid) {
   ASSERT_EQ(answer.orders.size(), kMostOutcomes);
   ASSERT_EQ(answer.refused.size(), 1U);
   EXPECT_EQ(answer.refused[0].reason, "outcomes of orders beyond the first 256");
+}
+
+// A lever of 3e17 m leaves W the rank one, and the smallest doubles round the velocity of the contact out of its range.
+TEST(HardMultiContactTest, AVelocityThatRoundingTakesOutOfTheRangeOfWIsRefused) {
+  for (const auto& [speed, is_answered] : {std::pair(1.0, true), std::pair(1.5e-323, false)}) {
+    MultiContactScene scene = {.contacts = {{.friction = 0.3,
+                                             .energetic = 0.0,
+                                             .body = 1,
+                                             .point_m = {-2.8823037615171174e17, 0.0},
+                                             .normal = {1.2223455849564906, 1.0}}}};
+    scene.system = FreeBodies{.bodies = {{.mass_kg = 1.0,
+                                          .inertia_com_kg_m2 = {5.0 / 12.0},
+                                          .position_m = {0.0, 1.0048828125},
+                                          .linear_m_s = {0.0, speed}}}};
+    EXPECT_EQ(LocalSolver().MultiContact({.scene = scene}).ok(), is_answered) << speed;
+  }
 }
 
 // A pendulum whose tip locks: k = 1 is the planar model, which says that it stays.
