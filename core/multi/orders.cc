@@ -37,6 +37,7 @@ class Search {
       branched_.clear();
       orders_ = {};
       ran_out_ = false;
+      depth_ = 0;
       Follow(StartOf(problem_), -1, 0.0, budget);
       if (!ran_out_) break;
     }
@@ -150,7 +151,7 @@ class Search {
         Keep(std::move(state));
         return taken;
       }
-      if (taken >= budget) {
+      if (taken >= budget || (!shares_ && depth_ > kMostNested)) {
         ran_out_ = true;
         if (!shares_) return taken;
         state.end = MultiContactEnd::kBudgetUsedUp;
@@ -171,7 +172,10 @@ class Search {
         if (child.end == MultiContactEnd::kWedged) {
           Keep(std::move(child));
         } else {
+          ++depth_;
           taken += Follow(std::move(child), next[i], speed, share - 1);
+          --depth_;
+          if (ran_out_ && !shares_) return taken;
         }
       }
       last = next.back();
@@ -237,6 +241,7 @@ class Search {
   }
 
   static constexpr size_t kMostBranched = 1024;
+  static constexpr int kMostNested = 64;
 
   const Problem& problem_;
   absl::FunctionRef<bool()> stopped_;
@@ -244,7 +249,8 @@ class Search {
   double scale_ = 0.0;
   std::vector<bool> coupled_;
   bool shares_ = false;   // True if branches share the budget.
-  bool ran_out_ = false;  // True once a sequence needs more than its budget.
+  bool ran_out_ = false;  // True once a sequence needs more than its budget, or the stack.
+  int depth_ = 0;         // Branches within branches. Those that share the budget are some ten at most.
   std::vector<Attained> branched_;
   Orders orders_;
 };
