@@ -23,15 +23,17 @@ absl::Status OtherEngine(const EngineInfo& before, const EngineInfo& now) {
                                                     now.fingerprint, "), whose last bits may differ"));
 }
 
+// The columns in or out, whichever are more; at least one.
+size_t ColumnsOf(const BatchSetup& setup) { return std::max({setup.fields.size(), setup.columns.size(), size_t{1}}); }
+
 }  // namespace
 
 size_t RowsOfAPiece(const BatchSetup& setup) {
-  const size_t columns = std::max({setup.fields.size(), setup.columns.size(), size_t{1}});
-  return std::max(kPieceBytes / (columns * sizeof(double)), size_t{1});
+  return std::max(kPieceBytes / (ColumnsOf(setup) * sizeof(double)), size_t{1});
 }
 
 size_t RowsOfAPiece(const BatchSetup& setup, const Limits& limits) {
-  const auto columns = static_cast<int64_t>(std::max({setup.fields.size(), setup.columns.size(), size_t{1}}));
+  const auto columns = static_cast<int64_t>(ColumnsOf(setup));
   // The first message of a call has the setup beside its columns.
   constexpr int64_t kBytesOfSetup = 4096;
   const int64_t by_bytes = (limits.max_request_bytes - kBytesOfSetup) / static_cast<int64_t>(sizeof(double)) / columns;

@@ -1,6 +1,5 @@
 #include <CLI/App.hpp>
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "client/cli/program.h"
 #include "client/cli/report/multicontact_report.h"
 #include "client/cli/text/number_input.h"
+#include "core/scene/validate_multi.h"
 #include "proto/wire/multi_contact.h"
 
 namespace ricochet::cli {
@@ -43,11 +43,8 @@ struct MultiContactOptions {
 };
 
 absl::StatusOr<MultiContactMethod> ReadMethod(const std::string& name) {
-  constexpr std::array kMethods = {std::pair("orders", MultiContactMethod::kOrders),
-                                   std::pair("springs", MultiContactMethod::kSprings),
-                                   std::pair("possible", MultiContactMethod::kPossible)};
-  for (const auto& [known, method] : kMethods) {
-    if (name == known) return method;
+  for (const MultiContactMethod method : kMultiContactMethods) {
+    if (name == NameOf(method)) return method;
   }
   return InputError("--method", name, "be orders, springs or possible");
 }

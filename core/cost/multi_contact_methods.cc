@@ -94,7 +94,7 @@ Kernel KernelOf(const Problem& problem, double speed) {
 
 StudiedScene StudyMultiContact(const MultiContactScene& scene, const MultiReduction& reduction) {
   StudiedScene study = {.speed = SpeedOf(reduction), .directions = 0};
-  for (const auto method : {MultiContactMethod::kOrders, MultiContactMethod::kSprings, MultiContactMethod::kPossible}) {
+  for (const MultiContactMethod method : kMultiContactMethods) {
     if (!WhyNot(method, reduction.directions, static_cast<int>(scene.contacts.size())).empty()) continue;
     const Problem problem = {
         .request = std::make_shared<MultiContactRequest>(MultiContactRequest{.scene = scene, .methods = {method}}),

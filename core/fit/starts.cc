@@ -16,11 +16,16 @@ constexpr int kFewer = 16;
 // So many rows are solved at once.
 constexpr size_t kRowsAtOnce = size_t{1} << 18;
 
-// Fractional parts of multiples of the generalized golden ratio, one for each unknown: the points of all numbers fill
-// the cube evenly, and number 0 is its centre.
-std::vector<double> PartsOf(int number, size_t unknowns) {
+// The root of ratio^(unknowns + 1) = 1 + ratio: the golden ratio for one unknown.
+double GoldenRatio(size_t unknowns) {
   double ratio = 2.0;
   for (int i = 0; i < 40; ++i) ratio = Pow(1.0 + ratio, 1.0 / (static_cast<double>(unknowns) + 1.0));
+  return ratio;
+}
+
+// Fractional parts of multiples of the powers of 1 / `ratio`, one for each unknown: the points of all numbers fill the
+// cube evenly, and number 0 is its centre.
+std::vector<double> PartsOf(int number, size_t unknowns, double ratio) {
   std::vector<double> parts(unknowns);
   double step = 1.0;
   for (double& part : parts) {
@@ -46,7 +51,7 @@ double Beside(const Problem& problem, double centre, double part, size_t k) {
 std::vector<double> StartOf(const Problem& problem, int number) {
   std::vector<double> start = problem.start;
   if (number == 0) return start;
-  const std::vector<double> parts = PartsOf(number, start.size());
+  const std::vector<double> parts = PartsOf(number, start.size(), GoldenRatio(start.size()));
   for (size_t k = 0; k < start.size(); ++k) {
     const double low = problem.low[k], high = problem.high[k];
     if (HasBounds(problem, k)) {
@@ -63,10 +68,11 @@ std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, c
                                             int count, size_t most, Model& model) {
   const Problem& problem = model.problem();
   if (!problem.why_differences.empty()) count /= kFewer;
+  const double ratio = GoldenRatio(centre.size());
   std::vector<std::vector<double>> places;
   for (int number = 1; number <= count; ++number) {
     std::vector<double>& place = places.emplace_back(centre);
-    const std::vector<double> parts = PartsOf(number, centre.size());
+    const std::vector<double> parts = PartsOf(number, centre.size(), ratio);
     for (size_t k = 0; k < place.size(); ++k) {
       const double side = 2.0 * parts[k] - 1.0;
       if (is_free[k]) place[k] = Beside(problem, centre[k], side * side * side, k);

@@ -20,32 +20,27 @@ constexpr size_t kLeastOfEndless = 6;
 
 class Search {
  public:
-  Search(const Problem& problem, absl::FunctionRef<bool()> stopped) : problem_(problem), stopped_(stopped) {
+  Search(const Problem& problem, bool shares, absl::FunctionRef<bool()> stopped)
+      : problem_(problem), shares_(shares), stopped_(stopped) {
     roots_ = problem.w.diagonal().cwiseMax(0.0).cwiseSqrt();
     scale_ = problem.v.cwiseAbs().maxCoeff();
-    coupled_.resize(static_cast<size_t>(problem.k * problem.k));
+    coupled_.resize(Place(problem.k, 0));
     for (int i = 0; i < problem.k; ++i) {
       for (int j = 0; j < problem.k; ++j) coupled_[Place(i, j)] = problem.AreCoupled(i, j);
     }
   }
 
-  // A tree that the budget holds is followed to its ends. Of any other the branches share the budget, so that the ends
-  // found come from all of them.
-  Orders Run(int64_t budget) && {
-    for (const bool shares : {false, true}) {
-      shares_ = shares;
-      branched_.clear();
-      orders_ = {};
-      ran_out_ = false;
-      depth_ = 0;
-      Follow(StartOf(problem_), -1, 0.0, budget);
-      if (!ran_out_) break;
-    }
-    return std::move(orders_);
+  // Returns false if a sequence needs more than its budget, or the stack.
+  bool Run(int64_t budget) {
+    Follow(StartOf(problem_), -1, 0.0, budget);
+    return !ran_out_;
   }
+  Orders orders() && { return std::move(orders_); }
 
  private:
-  size_t Place(int i, int j) const { return static_cast<size_t>(i * problem_.k + j); }
+  size_t Place(int i, int j) const {
+    return static_cast<size_t>(i) * static_cast<size_t>(problem_.k) + static_cast<size_t>(j);
+  }
 
   // Carries the error of the impulses over an impact of contact i: an error of the velocity before changes the impulse
   // by D times it, and the impulse has an error of its own.
@@ -244,13 +239,13 @@ class Search {
   static constexpr int kMostNested = 64;
 
   const Problem& problem_;
+  const bool shares_;  // Branches share the budget.
   absl::FunctionRef<bool()> stopped_;
   Vector roots_;  // sqrt(W_jj)
   double scale_ = 0.0;
   std::vector<bool> coupled_;
-  bool shares_ = false;   // True if branches share the budget.
-  bool ran_out_ = false;  // True once a sequence needs more than its budget, or the stack.
-  int depth_ = 0;         // Branches within branches. Those that share the budget are some ten at most.
+  bool ran_out_ = false;
+  int depth_ = 0;  // Branches within branches. Those that share the budget are some ten at most.
   std::vector<Attained> branched_;
   Orders orders_;
 };
@@ -258,7 +253,13 @@ class Search {
 }  // namespace
 
 Orders FindOrders(const Problem& problem, absl::FunctionRef<bool()> stopped, int64_t budget) {
-  return Search(problem, stopped).Run(budget);
+  // A tree that the budget holds is followed to its ends. Of any other the branches share the budget, so that the ends
+  // found come from all of them.
+  Search whole(problem, /*shares=*/false, stopped);
+  if (whole.Run(budget)) return std::move(whole).orders();
+  Search parts(problem, /*shares=*/true, stopped);
+  parts.Run(budget);
+  return std::move(parts).orders();
 }
 
 }  // namespace ricochet::multi

@@ -4,6 +4,7 @@
 #ifndef RICOCHET_CORE_SCENE_VALIDATE_MULTI_H_
 #define RICOCHET_CORE_SCENE_VALIDATE_MULTI_H_
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ namespace ricochet {
 // the request: "contacts[0].friction", "free_bodies.bodies[1].mass_kg", "methods[0]". Where there is none, `reduction`
 // is what the scene was reduced to.
 std::vector<Violation> Validate(const MultiContactRequest& request, std::optional<MultiReduction>& reduction);
+
+inline constexpr std::array kMultiContactMethods = {MultiContactMethod::kOrders, MultiContactMethod::kSprings,
+                                                    MultiContactMethod::kPossible};
 
 // The name of a method: "orders".
 const char* NameOf(MultiContactMethod method);

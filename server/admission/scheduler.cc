@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/cleanup/cleanup.h"
+#include "absl/strings/str_cat.h"
 
 namespace ricochet::server {
 namespace {
@@ -66,12 +67,11 @@ absl::Status Scheduler::Compute(const ComputeRequest& request, absl::FunctionRef
     if (!has_computed || !request.cost.has_value()) return;
     times_.Learn(*request.cost, computed_s, Clock::now() >= waiter.deadline);
   };
+  const char* const when = is_stream ? "" : " before the call began";
   if (request.deadline.has_value() && Clock::now() >= *request.deadline) {
-    return absl::DeadlineExceededError(is_stream ? "the deadline passed" : "the deadline passed before the call began");
+    return absl::DeadlineExceededError(absl::StrCat("the deadline passed", when));
   }
-  if (request.is_gone()) {
-    return absl::CancelledError(is_stream ? "the caller gave up" : "the caller gave up before the call began");
-  }
+  if (request.is_gone()) return absl::CancelledError(absl::StrCat("the caller gave up", when));
   has_computed = true;
   if (is_cheap) {
     work();
