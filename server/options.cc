@@ -351,7 +351,7 @@ void CheckTls(const Options& options, std::vector<std::string>& violations) {
   }
 }
 
-// A limit that another one never lets be reached is a mistake.
+// A limit above the one that it is a part of would never take effect.
 void CheckLimitsFit(const Options& options, std::vector<std::string>& violations) {
   const auto check = [&violations](const char* part, int limit, const char* whole, int most) {
     if (limit <= most) return;

@@ -18,7 +18,7 @@ constexpr double kFarthest = 0x1p20;
 constexpr double kEndTolerance = 1e-5;
 // A search goes on beyond so many ends that were none.
 constexpr int kMostFurther = 8;
-// Of so many places around the other unknowns' best, so many are tried.
+// At an end the other unknowns are looked at in so many places, and searched from so many of them.
 constexpr int kLookedAt = 128;
 constexpr size_t kTriedPlaces = 2;
 

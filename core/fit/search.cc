@@ -210,7 +210,7 @@ void Approach(const std::vector<double>& start, Model& model, Minimum& found) {
     if (problem.is_angle[k]) {
       move(k, start[k] + std::remainder(found.at[k] - start[k], 2.0 * std::numbers::pi));
     }
-    // What lies among the starts is as good a place as the start.
+    // A number in the range of the starts has not run off and stays where it is.
     if (!(std::fabs(found.at[k] - start[k]) > 4.0 * problem.scale[k]) || move(k, start[k])) continue;
     constexpr int kMostHalves = 1100;  // Of the largest double, none is left.
     for (int i = 0; i < kMostHalves && move(k, start[k] + 0.5 * (found.at[k] - start[k])); ++i) continue;
