@@ -54,11 +54,10 @@ void SetBrokenLimits(const PlanarReduction& reduction, const laws::ImpactSolutio
             outcome);
 }
 
-// Adds the solutions that the answer is not, if there are any.
+// Adds the ends of the range of solutions, if there is one.
 void AddAlternatives(const laws::ImpactLawResult& result, Outcome& outcome) {
   if (result.ends.empty()) return;
   for (const laws::ImpactSolution& each : result.ends) outcome.alternatives.push_back(ToOutcome(each));
-  outcome.alternatives_are_ends = true;
   const bool is_bounded = result.ends.size() > 1;
   outcome.notes.push_back(
       {.kind = NoteKind::kManySolutions,

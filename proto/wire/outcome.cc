@@ -230,7 +230,6 @@ struct Map<Outcome> : Between<Outcome, v1::Outcome> {
       Entry(&T::accuracy, &P::accuracy, &P::mutable_accuracy), Entry(&T::errors, &P::errors, &P::mutable_errors),
       Entry(&T::notes, &P::notes, &P::mutable_notes),
       Entry(&T::alternatives, &P::alternatives, &P::mutable_alternatives),
-      Entry(&T::alternatives_are_ends, &P::alternatives_are_ends, &P::set_alternatives_are_ends),
       Entry(&T::plan, &P::plan, &P::mutable_plan), Entry(&T::rates_after, &P::rates_after, &P::mutable_rates_after),
       Entry(&T::momentum_change, &P::momentum_change, &P::mutable_momentum_change),
       Entry(&T::free_end, &P::has_free_end, &P::free_end, &P::mutable_free_end),

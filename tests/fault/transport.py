@@ -14,7 +14,7 @@ from http2 import (CONTINUATION, DATA, END_HEADERS, HEADERS, PING, PREFACE, PRIO
 
 MOST_MIB = 64
 BOUNDARY = ("gRPC 1.51 has no limit on this. Off loopback, serve behind the proxy of this directory or with mutual TLS, "
-            "which the same attack does not pass; on loopback, MemoryMax of the unit bounds it.")
+            "which the same attack does not pass; on loopback, a limit on memory (`MemoryMax=` of the systemd unit, the one of a container) bounds it.")
 
 
 def server(**more):

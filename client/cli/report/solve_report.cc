@@ -177,8 +177,7 @@ std::string AlternativesText(const Outcome& outcome) {
     cells.push_back(Rounded(alternatives[i].impulse.normal_total_n_s));
     table.Add(cells);
   }
-  const char* title = outcome.alternatives_are_ends ? "Ends of the range of solutions" : "All solutions of the law";
-  return absl::StrCat("\n", title, "\n", table.Render(2));
+  return absl::StrCat("\nEnds of the range of solutions\n", table.Render(2));
 }
 
 std::string ImpulseText(const Impulse& impulse) {

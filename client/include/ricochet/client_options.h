@@ -55,7 +55,7 @@ struct ClientOptions {
   std::chrono::milliseconds deadline{10000};                // For every call with one answer, tries included. > 0.
   std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.
   // Bytes of one message of an answer, in [1, kMostReceiveBytes]. A larger one fails with RESOURCE_EXHAUSTED. A server
-  // with its default limits sends no message above 4 MiB; one whose limits are raised may.
+  // with its default limits sends none above 4 MiB but the answer of a batch, which a Client asks for in pieces.
   int64_t max_receive_bytes = int64_t{4} << 20;
   RetryPolicy retry;
   std::optional<FanOut> fan_out;  // Present: the servers of the list compute a sweep together, not one after another.

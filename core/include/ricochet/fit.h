@@ -133,7 +133,7 @@ struct FitOutlier {
 // A search.
 struct FitStart {
   std::vector<double> from, to;  // The unknowns where it started and ended.
-  double objective = 0.0;        // Twice the minimized sum of losses; chi2 for squares. Infinite if it had no start.
+  double objective = 0.0;        // The sum of losses at its end; chi2 for squares. Infinite if it had no outcome.
   int32_t iterations = 0;
   bool converged = false;
   friend bool operator==(const FitStart&, const FitStart&) = default;

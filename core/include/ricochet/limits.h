@@ -28,7 +28,8 @@ struct Limits {
   int64_t max_axes = 32;
   // Values of an axis that lists them.
   int64_t max_axis_values = 65'536;
-  // Columns of a sweep or a batch, and outputs of a request about several contacts.
+  // Columns of a sweep, fields or columns of a batch, outputs of a request about several contacts, and unknowns, inputs
+  // or measured columns of a fit.
   int64_t max_columns = 256;
   // Points of a sweep.
   int64_t max_points_per_sweep = 10'000'000'000;

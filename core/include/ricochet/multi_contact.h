@@ -82,7 +82,7 @@ struct MultiContactScene {
 // Numbers of each contact, 2 in a plane or 3 in space; 0 if no system is set, or the lengths of its lists do not tell.
 int DirectionsOf(const MultiContactScene& scene);
 
-// The numbers are those of ricochet.v1.MultiContactMethod.
+// The numbers are those of ricochet.v1.MultiContactRequest.Method.
 enum class MultiContactMethod { kUnspecified = 0, kOrders = 1, kSprings = 2, kPossible = 3 };
 
 // A velocity before that takes the place of the scene's: the kd contact velocities of a ContactMatrix, the rates of a
@@ -117,7 +117,7 @@ struct MultiContactRequest {
 };
 
 // Says how a sequence of impacts, or the motion on springs, ended. The numbers are those of
-// ricochet.v1.MultiContactEnd.
+// ricochet.v1.AttainedOutcome.End.
 enum class MultiContactEnd {
   kUnspecified = 0,
   kSeparated = 1,        // No contact approaches any more.
@@ -195,11 +195,11 @@ struct StiffnessSample {
 // samples.
 struct StiffnessJump {
   double low = 0.0, high = 0.0;  // Relative stiffnesses.
-  double difference = 0.0;       // The largest change of an output, over its scale (see Verdict).
+  double difference = 0.0;       // The largest change of an output, over its scale (see differing_output).
   friend bool operator==(const StiffnessJump&, const StiffnessJump&) = default;
 };
 
-// Says whether the order of impacts matters. The numbers are those of ricochet.v1.MultiContactVerdict.
+// Says whether the order of impacts matters. The numbers are those of ricochet.v1.MultiContactAnswer.Verdict.
 enum class MultiContactVerdict {
   kUnspecified = 0,               // Not decided: no two outcomes differ, but some could not be found.
   kSingle = 1,                    // Proved: only one outcome is possible.
@@ -217,9 +217,9 @@ struct RefusedMethod {
 // A MultiContactAnswer says what the contacts can do from one velocity before.
 struct MultiContactAnswer {
   MultiContactVerdict verdict = MultiContactVerdict::kUnspecified;
-  // The output that differs most, for kOrderMatters and kOrdersAgreeSpringsDiffer: an output, by how much, and in which
-  // two outcomes. The most is that over sqrt(2 T g), where an impulse that changes the output by one unit takes the
-  // energy 1/(2 g): the scale of the output at the kinetic energy T of the contact velocity.
+  // For kOrderMatters and kOrdersAgreeSpringsDiffer: the output that differs most over its scale, by how much it
+  // differs, and in which two outcomes. The scale is sqrt(2 T g): T is energy_before_j, and an impulse that changes the
+  // output by one unit takes the energy 1/(2 g).
   std::string differing_output;
   double difference = 0.0;
   std::string outcome_1, outcome_2;  // The text of an order, or "springs".

@@ -30,7 +30,8 @@ struct Coefficients {
   double newton = 0.0;
   std::optional<double> poisson = 0.0;
   std::optional<double> energetic = 0.0;
-  double tangential = 0.0;  // Brach's mu_hat = tangential / normal impulse, signed. Lubarda Eq. (49).
+  // Brach's mu_hat = tangential / normal impulse, signed in a plane, its magnitude in space. Lubarda Eq. (49).
+  double tangential = 0.0;
   friend bool operator==(const Coefficients&, const Coefficients&) = default;
 };
 
@@ -48,7 +49,7 @@ struct Impulse {
   friend bool operator==(const Impulse&, const Impulse&) = default;
 };
 
-// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j. An
+// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but those of restitution. An
 // impact law has no phases: all four are then unset, and the residual is that of the two totals.
 struct WorkLedger {
   std::optional<double> normal_compression_j = 0.0;
@@ -57,14 +58,14 @@ struct WorkLedger {
   std::optional<double> tangential_restitution_j = 0.0;  // > 0 where a tangential spring gives back energy.
   double normal_total_j = 0.0;          // -(energy lost to irreversible deformation), Lubarda Eq. (37).
   double tangential_total_j = 0.0;      // -(energy lost to friction and left in a tangential spring), Lubarda Eq. (35).
-  double friction_dissipation_j = 0.0;  // >= 0
+  double friction_dissipation_j = 0.0;  // < 0 only where an impact law lets friction give energy.
   double tangential_spring_j = 0.0;     // Energy left in the tangential spring of a compliant contact, and lost. >= 0.
   double residual_j = 0.0;              // Sum of the four works minus energy_change_j: rounding only.
   friend bool operator==(const WorkLedger&, const WorkLedger&) = default;
 };
 
-// An event is an instant at which the motion of the contact changes. In a plane, every quantity is linear in the normal
-// impulse between two events. The numbers are those of ricochet.v1.Event.Kind.
+// An event is an instant at which the motion of the contact changes. For a rigid contact in a plane, every quantity is
+// linear in the normal impulse between two events. The numbers are those of ricochet.v1.Event.Kind.
 enum class EventKind {
   kUnspecified = 0,
   kStart = 1,
@@ -240,7 +241,7 @@ struct Outcome {
   bool admissible = true;  // False exactly if broken_limits is not empty.
   std::vector<BrokenLimit> broken_limits;
   int w_rank = 0;                // Rank of the contact-space inverse inertia W; 1 for a pendulum.
-  Coefficients coefficients;     // All 0 but the tangential one if separating or locked.
+  Coefficients coefficients;     // All 0 if separating; the first three if locked.
   Components rates_after_rad_s;  // One for each link; a pendulum has omega+. Empty for systems without joints.
   ContactVelocity contact_velocity_after;
   Impulse impulse;
@@ -253,9 +254,9 @@ struct Outcome {
   Accuracy accuracy;
   NumberErrors errors;
   std::vector<Note> notes;                   // In the order of their kinds and fields.
-  std::vector<ImpactSolution> alternatives;  // Every solution of a Kane-Levinson law that has several or none.
-  // True if every mixture of the alternatives solves the law, too: they are the ends of a range.
-  bool alternatives_are_ends = false;
+  // The ends of the range of impulses that solve a Kane-Levinson law; one if the range has no other end. Empty for a
+  // single solution.
+  std::vector<ImpactSolution> alternatives;
   Plan plan;
   std::optional<ContactDuration> contact;  // Present exactly if the model is kFiniteDuration and the bodies touch.
   // A mechanism has these, in the units of its coordinates: q' after the impact, and M (q'+ - q'), the momentum that

@@ -145,7 +145,7 @@ using ImpactLaw = std::variant<std::monostate, WhittakerLaw, KaneLevinsonLaw, Br
 struct Scene {
   System system;
   Friction friction;
-  Restitution restitution;                              // Unset exactly if impact_law is set; bounds need neither.
+  Restitution restitution;                              // Unset exactly if impact_law or a HuntCrossleySpring is.
   std::optional<SpeedDependence> restitution_by_speed;  // Absent means constant.
   std::optional<SurfaceVelocity> surface_velocity;      // Absent means at rest.
   ImpactLaw impact_law;

@@ -442,7 +442,6 @@ TEST(SceneOutcomeTest, KaneAndLevinsonTakeTheImpulseThatBrakesAndGiveTheEndsOfTh
   EXPECT_NEAR(outcome.work.tangential_total_j, -0.1875, kTight);
   EXPECT_TRUE(outcome.admissible);
   ASSERT_THAT(outcome.alternatives, SizeIs(2));
-  EXPECT_TRUE(outcome.alternatives_are_ends);
   EXPECT_NEAR(outcome.alternatives[0].impulse.tangential_n_s[0], -0.75, kTight);
   EXPECT_NEAR(outcome.alternatives[1].impulse.tangential_n_s[0], 0.1875, kTight);
   EXPECT_EQ(outcome.alternatives[0].contact_velocity_after, outcome.contact_velocity_after);
