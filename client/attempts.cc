@@ -67,7 +67,7 @@ bool MayResume(const absl::Status& status) {
 
 CallOptions WithDeadline(CallOptions options, std::optional<milliseconds> most) {
   if (!most.has_value()) return options;
-  const Deadline end = std::chrono::steady_clock::now() + std::min<std::chrono::nanoseconds>(*most, kLongestCall);
+  const Deadline end = std::chrono::steady_clock::now() + std::min(*most, kLongestTime);
   options.deadline = std::min(end, options.deadline.value_or(end));
   return options;
 }

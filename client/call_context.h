@@ -23,8 +23,8 @@ inline bool IsStopped(const CallOptions& options) {
 
 inline absl::Status StoppedByCaller() { return absl::CancelledError("the call was stopped by its caller"); }
 
-// The longest time that a call can be given: times of gRPC must not overflow.
-inline constexpr std::chrono::nanoseconds kLongestCall = std::chrono::hours(24 * 365);
+// The longest time that a call or a wait can be given, so that no clock overflows.
+inline constexpr std::chrono::milliseconds kLongestTime = std::chrono::hours(24 * 365);
 
 // Thread safety: the stop token may be triggered from any thread; everything else is for one thread at a time.
 class CallContext {
@@ -39,7 +39,9 @@ class CallContext {
     }
     if (IsStopped(options)) context_.TryCancel();
     // gRPC takes a time of the system's clock.
-    if (left.has_value()) context_.set_deadline(std::chrono::system_clock::now() + std::min(*left, kLongestCall));
+    if (left.has_value()) {
+      context_.set_deadline(std::chrono::system_clock::now() + std::min<std::chrono::nanoseconds>(*left, kLongestTime));
+    }
   }
 
   grpc::ClientContext& get() { return context_; }

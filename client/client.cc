@@ -7,6 +7,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "client/answer_shape.h"
 #include "client/attempts.h"
 #include "client/batch_session.h"
 #include "client/call_context.h"
@@ -91,6 +92,16 @@ struct Client::Connection {
     return FromProto(*response);
   }
 
+  // The same for an answer with lists by whose lengths a caller indexes.
+  template <typename Request, typename WireRequest, typename WireResponse>
+  auto AskShaped(Method<WireRequest, WireResponse> method, const Request& request, const CallOptions& given)
+      -> absl::StatusOr<decltype(FromProto(WireResponse()))> {
+    auto response = Ask(method, request, given);
+    if (!response.ok()) return response;
+    if (absl::Status misshaped = CheckShape(request, *response); !misshaped.ok()) return misshaped;
+    return response;
+  }
+
   // Returns the final failure of a call. One by which gRPC says that an answer is too large says, too, which option
   // decides.
   absl::Status Explain(const absl::Status& error) const {
@@ -157,12 +168,12 @@ absl::StatusOr<AuditBatchResponse> Client::DoAuditBatch(const AuditBatchRequest&
 }
 
 absl::StatusOr<FitResponse> Client::DoFit(const FitRequest& request, const CallOptions& options) const {
-  return connection_->Ask(&Stub::Fit, request, options);
+  return connection_->AskShaped(&Stub::Fit, request, options);
 }
 
 absl::StatusOr<MultiContactResponse> Client::DoMultiContact(const MultiContactRequest& request,
                                                             const CallOptions& options) const {
-  return connection_->Ask(&Stub::MultiContact, request, options);
+  return connection_->AskShaped(&Stub::MultiContact, request, options);
 }
 
 absl::StatusOr<BatchSession> Client::DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const {

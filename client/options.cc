@@ -5,6 +5,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
+#include "client/call_context.h"
 #include "client/credentials.h"
 #include "client/server_address.h"
 #include "core/base/decimal.h"
@@ -22,6 +23,12 @@ std::string Seconds(std::chrono::milliseconds time) {
 
 std::string Found(std::chrono::milliseconds time, const char* rule) {
   return absl::StrCat("= ", time.count(), " ms: must ", rule);
+}
+
+// Refuses a time that no clock could add.
+void CheckTime(const char* name, std::chrono::milliseconds time, std::vector<Violation>& violations) {
+  if (time.count() > 0 && time <= kLongestTime) return;
+  violations.push_back({name, Found(time, "be > 0 and at most a year")});
 }
 
 std::string TargetRule(const std::string& target) {
@@ -46,11 +53,11 @@ std::vector<Violation> RetryViolations(const RetryPolicy& retry) {
   if (retry.max_resumes < 0) {
     violations.push_back({"retry.max_resumes", absl::StrCat("= ", retry.max_resumes, ": must be >= 0")});
   }
-  if (retry.initial_backoff.count() <= 0) {
-    violations.push_back({"retry.initial_backoff", Found(retry.initial_backoff, "be > 0")});
-  }
+  CheckTime("retry.initial_backoff", retry.initial_backoff, violations);
   if (retry.max_backoff < retry.initial_backoff) {
     violations.push_back({"retry.max_backoff", Found(retry.max_backoff, "be >= retry.initial_backoff")});
+  } else {
+    CheckTime("retry.max_backoff", retry.max_backoff, violations);
   }
   if (!(retry.multiplier >= 1.0) || std::isinf(retry.multiplier)) {
     violations.push_back(MakeViolation("retry.multiplier", retry.multiplier, "be finite and >= 1"));
@@ -65,12 +72,8 @@ absl::Status ValidateOptions(const ClientOptions& options) {
   if (const std::string wrong = TargetRule(options.target); !wrong.empty()) {
     violations.push_back({"target", wrong});
   }
-  if (options.deadline.count() <= 0) {
-    violations.push_back({"deadline", Found(options.deadline, "be > 0")});
-  }
-  if (options.sweep_deadline.has_value() && options.sweep_deadline->count() <= 0) {
-    violations.push_back({"sweep_deadline", Found(*options.sweep_deadline, "be > 0")});
-  }
+  CheckTime("deadline", options.deadline, violations);
+  if (options.sweep_deadline.has_value()) CheckTime("sweep_deadline", *options.sweep_deadline, violations);
   if (options.max_receive_bytes < 1 || options.max_receive_bytes > kMostReceiveBytes) {
     violations.push_back({"max_receive_bytes",
                           absl::StrCat("= ", options.max_receive_bytes, ": must be in [1, ", kMostReceiveBytes, "]")});
@@ -81,9 +84,7 @@ absl::Status ValidateOptions(const ClientOptions& options) {
   if (options.fan_out.has_value() && options.fan_out->buffer_bytes <= 0) {
     violations.push_back({"fan_out.buffer_bytes", absl::StrCat("= ", options.fan_out->buffer_bytes, ": must be > 0")});
   }
-  if (options.fan_out.has_value() && options.fan_out->slow_after.count() <= 0) {
-    violations.push_back({"fan_out.slow_after", Found(options.fan_out->slow_after, "be > 0")});
-  }
+  if (options.fan_out.has_value()) CheckTime("fan_out.slow_after", options.fan_out->slow_after, violations);
   for (const std::string& target : Targets(options)) {
     const std::vector<Violation> broken = SecurityViolations(options.security, target);
     violations.insert(violations.end(), broken.begin(), broken.end());

@@ -200,7 +200,9 @@ void SweepFanOut::Fail(const absl::Status& status, const RangeScheduler::Task& t
 
 void SweepFanOut::BackOff(milliseconds time) {
   std::unique_lock lock(mutex_);
-  work_.wait_until(lock, Clock::now() + time, [this] { return ended_ || failure_.has_value(); });
+  // A server may ask for a delay of any length.
+  work_.wait_until(lock, Clock::now() + std::min(time, kLongestTime),
+                   [this] { return ended_ || failure_.has_value(); });
 }
 
 absl::Status SweepFanOut::NoServerLeft(const absl::Status& last) const {

@@ -51,7 +51,6 @@ void AddHealth(CLI::App& app, Command& command) {
       AddCommand<HealthOptions>(app, "health", "Ask whether a server takes calls", kExample, RunHealth, command);
   AddServerOptions(*sub, options->common);
   sub->add_option("--service", options->service, "Full name of the service; empty for the server as a whole")
-      ->capture_default_str()
       ->type_name("NAME");
 }
 

@@ -213,7 +213,7 @@ void AddSolve(CLI::App& app, Command& command) {
   AddRepeatable(*sub, "--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
       ->type_name("NAME");
   AddList(*sub, "--column", options->data.columns,
-          "Fields of the outcome to give for --data; default: the contact's velocity after and the impulse")
+          "Fields of the outcome to give for --data [the contact's velocity after and the impulse]")
       ->type_name("COLUMN,...");
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kRowFormats);

@@ -308,7 +308,7 @@ void AddGridOptions(CLI::App& sub, SweepOptions& options) {
       ->group("Grid");
   sub.add_flag("--zip", options.zip, "Advance all axes together instead of combining their values")->group("Grid");
   AddList(sub, "--column", options.columns,
-          "Fields of the outcome to compute; default: the three coefficients and rates_after_rad_s[0]")
+          "Fields of the outcome to compute [the three coefficients and rates_after_rad_s[0]]")
       ->type_name("COLUMN,...")
       ->group("Grid");
   sub.add_flag("--regime", options.regime,

@@ -91,11 +91,7 @@ class OutcomeSource final : public SampleSource {
   template <typename Reduction>
   static double SpeedOf(const Reduction& reduction) {
     double speed = std::fabs(reduction.v0);
-    if constexpr (requires { reduction.u0.size(); }) {
-      for (const double u : reduction.u0) speed = std::max(speed, std::fabs(u));
-    } else {
-      speed = std::max(speed, std::fabs(reduction.u0));
-    }
+    for (const double u : reduction.u0) speed = std::max(speed, std::fabs(u));
     return speed;
   }
 

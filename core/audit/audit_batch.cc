@@ -13,6 +13,7 @@
 #include "core/audit/audit_scene.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
+#include "core/scene/check.h"
 #include "core/scene/numbers.h"
 #include "ricochet/audit_columns.h"
 #include "ricochet/error.h"
@@ -64,7 +65,7 @@ void CheckRateColumns(const AuditColumns& columns, const System& system, std::ve
     violations.push_back(MakeViolation("columns.rates_after", "is set",
                                        "not be but for a pendulum or a linkage, give the contact's velocity"));
   } else if (found != *wanted) {
-    violations.push_back(audit::CountViolation("columns.rates_after", found, *wanted));
+    violations.push_back(CountViolation("columns.rates_after", found, *wanted));
   }
 }
 

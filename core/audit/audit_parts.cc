@@ -38,11 +38,6 @@ std::optional<size_t> RateCount(const System& system) {
   return std::nullopt;
 }
 
-Violation CountViolation(const char* field, size_t found, size_t wanted) {
-  return MakeViolation(field, absl::StrCat("has ", found, found == 1 ? " entry" : " entries"),
-                       absl::StrCat("have ", wanted));
-}
-
 Scene WithoutRestitution(Scene scene) {
   scene.restitution = std::monostate();
   scene.restitution_by_speed.reset();

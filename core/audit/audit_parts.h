@@ -23,9 +23,6 @@ std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact
 // Returns the number of rates that a pendulum (1) or a linkage (one a link) has; nothing for other systems.
 std::optional<size_t> RateCount(const System& system);
 
-// "has 2 entries: must have 1"
-Violation CountViolation(const char* field, size_t found, size_t wanted);
-
 // Removes the restitution and the impact law, which an audit does not use.
 Scene WithoutRestitution(Scene scene);
 

@@ -10,6 +10,7 @@
 #include "core/audit/audit.h"
 #include "core/audit/audit_parts.h"
 #include "core/contact/reduction.h"
+#include "core/scene/check.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
@@ -18,7 +19,7 @@ namespace {
 void CheckVelocity(const ContactVelocity& velocity, size_t directions, std::vector<Violation>& violations) {
   const Components& tangential = velocity.tangential_m_s;
   if (tangential.size() != directions) {
-    violations.push_back(audit::CountViolation("contact_velocity.tangential_m_s", tangential.size(), directions));
+    violations.push_back(CountViolation("contact_velocity.tangential_m_s", tangential.size(), directions));
   }
   for (size_t i = 0; i < tangential.size() && !IsFull(violations); ++i) {
     if (std::isfinite(tangential[i])) continue;
@@ -37,7 +38,7 @@ void CheckRates(const Components& rates, const System& system, std::vector<Viola
         MakeViolation("rates", "is set", "not be but for a pendulum or a linkage, give contact_velocity"));
     return;
   }
-  if (rates.size() != *wanted) violations.push_back(audit::CountViolation("rates.rates_rad_s", rates.size(), *wanted));
+  if (rates.size() != *wanted) violations.push_back(CountViolation("rates.rates_rad_s", rates.size(), *wanted));
   for (size_t i = 0; i < rates.size() && !IsFull(violations); ++i) {
     if (std::isfinite(rates[i])) continue;
     violations.push_back(MakeViolation(absl::StrCat("rates.rates_rad_s[", i, "]"), rates[i], "be finite"));

@@ -1,6 +1,7 @@
 #include "core/certified/surd.h"
 
 #include "core/base/invariant.h"
+#include "core/certified/ball.h"
 
 namespace ricochet::certified {
 
@@ -42,9 +43,9 @@ Surd Sqrt(const Surd& x) {
 void Surd::Enclose(arb_t ball, slong bits) const {
   arb_set_fmpq(ball, a_.get(), bits);
   if (IsRational()) return;
-  arb_t root, part;
-  arb_init(root);
-  arb_init(part);
+  Ball own_root, own_part;
+  arb_struct* const root = own_root.get();
+  arb_struct* const part = own_part.get();
   arb_set_fmpq(root, d_.get(), bits);
   arb_sqrt(root, root, bits);
   arb_set_fmpq(part, b_.get(), bits);
@@ -56,8 +57,6 @@ void Surd::Enclose(arb_t ball, slong bits) const {
     arb_set_fmpq(part, Norm().get(), bits);
     arb_div(ball, part, root, bits);
   }
-  arb_clear(part);
-  arb_clear(root);
 }
 
 }  // namespace ricochet::certified

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/certified/ball.h"
 #include "core/certified/flint.h"
 #include "core/models/restitution_law.h"
 
@@ -125,17 +126,10 @@ struct SineCosine {
 };
 
 SineCosine SineCosineOf(const Arf& angle, slong bits) {
-  arb_t x, sine, cosine;
-  arb_init(x);
-  arb_init(sine);
-  arb_init(cosine);
-  arb_set_arf(x, angle.get());
-  arb_sin_cos(sine, cosine, x, bits);
-  SineCosine both = {ArfInterval(sine, bits), ArfInterval(cosine, bits)};
-  arb_clear(cosine);
-  arb_clear(sine);
-  arb_clear(x);
-  return both;
+  Ball x, sine, cosine;
+  arb_set_arf(x.get(), angle.get());
+  arb_sin_cos(sine.get(), cosine.get(), x.get(), bits);
+  return {ArfInterval(sine.get(), bits), ArfInterval(cosine.get(), bits)};
 }
 
 ArfInterval CosineOfDifference(double x, double y, slong bits) {

@@ -29,9 +29,7 @@ Eigen::VectorXd ToEigen(const std::vector<double>& values, Eigen::Index size) {
 Eigen::MatrixXd InertiaOf(const FreeBody& body) {
   const std::vector<double>& i = body.inertia_com_kg_m2;
   if (i.size() == 1) return Eigen::MatrixXd::Constant(1, 1, i[0]);
-  Eigen::Matrix3d inertia;
-  inertia << i[0], i[1], i[2], i[1], i[3], i[4], i[2], i[4], i[5];
-  return inertia;
+  return Symmetric(i.data());
 }
 
 // The share of one of its two bodies in a contact: the body's place, +1 if its impulses act on it and -1 if their
@@ -142,14 +140,6 @@ MultiReduction ReduceMechanism(const Mechanism& mechanism, int directions) {
   return reduction;
 }
 
-Eigen::VectorXd ScalesOf(const Eigen::MatrixXd& matrix) {
-  Eigen::VectorXd scales(matrix.rows());
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    scales(i) = matrix(i, i) > 0.0 ? 1.0 / std::sqrt(matrix(i, i)) : 0.0;
-  }
-  return scales;
-}
-
 }  // namespace
 
 Eigen::VectorXd MultiReduction::ContactVelocity(const Eigen::VectorXd& velocities) const {
@@ -188,17 +178,8 @@ MultiReduction Reduce(const MultiContactScene& scene) {
   return reduction;
 }
 
-double SmallestScaledEigenvalue(const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXd scales = ScalesOf(matrix);
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    if (scales(i) == 0.0 && !matrix.row(i).isZero(0.0)) return -kInfinity;
-  }
-  const Eigen::MatrixXd scaled = scales.asDiagonal() * matrix * scales.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
-}
-
 double DistanceFromRange(const Eigen::MatrixXd& w, const Eigen::VectorXd& v, const Eigen::VectorXd& sizes) {
-  const Eigen::VectorXd scales = ScalesOf(w);
+  const Eigen::VectorXd scales = InverseScales(w);
   for (Eigen::Index i = 0; i < v.size(); ++i) {
     if (scales(i) == 0.0 && v(i) != 0.0) return kInfinity;
   }

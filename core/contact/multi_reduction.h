@@ -35,10 +35,6 @@ MultiReduction Reduce(const MultiContactScene& scene);
 // The directions of a contact in the coordinates of the bodies, one in each row: t, n or t1, t2, n.
 Eigen::MatrixXd DirectionsOf(const MultiContactPoint& contact);
 
-// The smallest eigenvalue of a symmetric matrix, scaled to a unit diagonal; -infinity if a diagonal entry is negative,
-// or 0 in a row that is not.
-double SmallestScaledEigenvalue(const Eigen::MatrixXd& matrix);
-
 // The largest distance of a component of the velocity from the range of W, over sqrt(W_jj), and over the norm of the
 // magnitudes that the velocity is a sum of, in the same unit; infinite if W_jj is 0 and the component is not.
 double DistanceFromRange(const Eigen::MatrixXd& w, const Eigen::VectorXd& v, const Eigen::VectorXd& sizes);

@@ -14,24 +14,12 @@
 #include "core/contact/linkage_matrices.h"
 #include "core/contact/mechanism.h"
 #include "core/contact/planar_body_share.h"
+#include "core/contact/symmetric_matrix.h"
 
 namespace ricochet {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-Eigen::Matrix3d Symmetric(const double* upper) {
-  Eigen::Matrix3d matrix;
-  matrix << upper[0], upper[1], upper[2], upper[1], upper[3], upper[4], upper[2], upper[4], upper[5];
-  return matrix;
-}
-
-// The inverse square roots of the diagonal; 0 for an entry of 0.
-Eigen::Vector3d InverseScales(const Eigen::Matrix3d& matrix) {
-  Eigen::Vector3d scales;
-  for (int i = 0; i < 3; ++i) scales(i) = matrix(i, i) > 0.0 ? 1.0 / std::sqrt(matrix(i, i)) : 0.0;
-  return scales;
-}
 
 // --- From M, J and q' ---
 
@@ -338,17 +326,6 @@ bool FitsDoubles(const AnyReduction& reduction) {
 
 double ApproachSpeed(const AnyReduction& reduction) {
   return std::visit([](const auto& reduced) { return std::max(0.0, -reduced.v0); }, reduction);
-}
-
-double SmallestScaledEigenvalue(const std::vector<double>& upper) {
-  const Eigen::Matrix3d matrix = Symmetric(upper.data());
-  const Eigen::Vector3d scales = InverseScales(matrix);
-  for (int i = 0; i < 3; ++i) {
-    const bool empty = (matrix.row(i).array() == 0.0).all();
-    if (scales(i) == 0.0 && !empty) return -std::numeric_limits<double>::infinity();
-  }
-  const Eigen::Matrix3d scaled = scales.asDiagonal() * matrix * scales.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
 }
 
 bool IsSurelyDefinite(absl::Span<const double> upper) {

@@ -83,11 +83,6 @@ double ApproachSpeed(const AnyReduction& reduction);
 // 1/2 v.W+ v with the pseudo-inverse W+ of W: the least kinetic energy, in J, that goes with the contact velocity.
 double ContactEnergy(const AnyReduction& reduction);
 
-// The smallest eigenvalue of a symmetric 3 x 3 matrix that is scaled to a unit diagonal. `upper` is its upper triangle,
-// row by row. The eigenvalue lies in [-2, 1] and is 0 for a singular matrix. It is -infinity if a diagonal entry is
-// negative, or is 0 in a row that is not 0.
-double SmallestScaledEigenvalue(const std::vector<double>& upper);
-
 // True only if that eigenvalue exceeds 2^-12, at a fraction of its cost: with a unit diagonal the three eigenvalues add
 // up to 3, so that the smallest of three positive ones is at least 4/9 of the determinant.
 bool IsSurelyDefinite(absl::Span<const double> upper);

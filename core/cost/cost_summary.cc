@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <variant>
 
+#include "core/cost/methods_by_model.h"
 #include "core/plan/planned_scene.h"
 
 namespace ricochet {
@@ -18,14 +18,7 @@ bool IsComparable(const CostRow& row) {
 }
 
 double OwnStiffness(const Scene& scene) {
-  if (!scene.compliance.has_value()) return 0.0;
-  struct Stiffness {
-    double operator()(std::monostate) const { return 0.0; }
-    double operator()(const LinearSpring& spring) const { return spring.stiffness_n_m; }
-    double operator()(const HertzSpring& spring) const { return spring.stiffness_n_m1_5; }
-    double operator()(const HuntCrossleySpring& spring) const { return spring.stiffness_n_m_p; }
-  };
-  return std::visit(Stiffness(), scene.compliance->normal);
+  return scene.compliance.has_value() ? StiffnessOf(scene.compliance->normal) : 0.0;
 }
 
 // The row of a model at a tolerance: that of the largest tolerance which is not above it.

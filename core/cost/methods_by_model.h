@@ -68,6 +68,9 @@ void AddCertified(const Scene& scene, double speed, double claimed_modelling, co
 // Returns the exact answer.
 ReferencePointer AddCompliant(const planar::Problem& problem, const ContactPhysics& physics, Methods& methods);
 
+// The stiffness of a spring in its own unit; 0 if there is none.
+double StiffnessOf(const NormalSpring& spring);
+
 // `impulses` is the exact answer where the spring changes no impulse: that of the rigid contact, or of the compliant
 // one; null if finite forces or damping act. Then the answer at the smallest tolerance is taken. Returns the exact
 // answer at the stiffness of the scene's own spring; null if it has none.

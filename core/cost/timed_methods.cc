@@ -19,13 +19,6 @@ using finite_duration::Problem;
 constexpr double kTolerances[] = {1e-3, 1e-6, 1e-9, 1e-12};
 constexpr double kLeastTolerance = 1e-12;
 
-struct StiffnessOf {
-  double operator()(std::monostate) const { return 0.0; }
-  double operator()(const LinearSpring& spring) const { return spring.stiffness_n_m; }
-  double operator()(const HertzSpring& spring) const { return spring.stiffness_n_m1_5; }
-  double operator()(const HuntCrossleySpring& spring) const { return spring.stiffness_n_m_p; }
-};
-
 struct Stiffened {
   double factor;
   NormalSpring operator()(std::monostate none) const { return none; }
@@ -59,7 +52,7 @@ std::vector<NormalSpring> SpringsFor(const NormalSpring& own, double wnn, bool o
     springs.push_back(stated ? std::visit(Stiffened{100.0}, own) : SpringOfDuration(1e-4, wnn));
   }
   std::erase_if(springs, [](const NormalSpring& spring) {
-    const double stiffness = std::visit(StiffnessOf(), spring);
+    const double stiffness = StiffnessOf(spring);
     return stiffness == 0.0 || std::isinf(stiffness);
   });
   return springs;
@@ -101,6 +94,16 @@ double SizeOfTime(const planar::Problem& contact, ContactPhysics physics, const 
 
 }  // namespace
 
+double StiffnessOf(const NormalSpring& spring) {
+  struct Stiffness {
+    double operator()(std::monostate) const { return 0.0; }
+    double operator()(const LinearSpring& linear) const { return linear.stiffness_n_m; }
+    double operator()(const HertzSpring& hertz) const { return hertz.stiffness_n_m1_5; }
+    double operator()(const HuntCrossleySpring& hunt_crossley) const { return hunt_crossley.stiffness_n_m_p; }
+  };
+  return std::visit(Stiffness(), spring);
+}
+
 ReferencePointer AddFiniteDuration(const planar::Problem& contact, const ContactPhysics& physics,
                                    const ReferencePointer& impulses, Methods& methods) {
   const bool stated = !std::holds_alternative<std::monostate>(physics.spring);
@@ -119,7 +122,7 @@ ReferencePointer AddFiniteDuration(const planar::Problem& contact, const Contact
       exact = MakeReference([problem](Stopped stopped) { return AtLeastTolerance(problem, stopped); });
     }
     if (own) own_exact = exact;
-    const double stiffness = std::visit(StiffnessOf(), spring);
+    const double stiffness = StiffnessOf(spring);
     for (const double tolerance : kTolerances) {
       problem.tolerance = tolerance;
       StudiedMethod method = {.name = absl::StrCat("duration k=", stiffness, " ", tolerance),

@@ -116,6 +116,21 @@ absl::Status Answer(const SolveRequest& request, CallControl& control, SolveResp
   return absl::OkStatus();
 }
 
+// Answers by `compute`, which checks the request but for its size.
+template <typename Response, typename Request, typename Compute>
+absl::StatusOr<Response> Answered(const Request& request, const Limits& limits, const CallOptions& options,
+                                  const Compute& compute) {
+  const DefaultFloatingPoint mode;
+  CallControl control(options);
+  if (absl::Status too_large = CheckLimits(request, limits); !too_large.ok()) return too_large;
+  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
+  const auto stopped = [&control] { return control.IsStopped(); };
+  absl::StatusOr<Response> response = compute(request, absl::FunctionRef<bool()>(stopped));
+  if (!response.ok()) return control.OrWhyEnded(response.status());
+  response->engine = ThisEngine();
+  return response;
+}
+
 }  // namespace
 
 LocalSolver::LocalSolver(const Limits& limits, int threads)
@@ -183,39 +198,20 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
 }
 
 absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, const CallOptions& options) const {
-  const DefaultFloatingPoint mode;
-  CallControl control(options);
-  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
-  absl::StatusOr<AuditResponse> response = AuditScene(request, [&control] { return control.IsStopped(); });
-  if (!response.ok()) return control.OrWhyEnded(response.status());
-  response->engine = ThisEngine();
-  return response;
+  return Answered<AuditResponse>(request, limits_, options, AuditScene);
 }
 
 absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchRequest& request,
                                                              const CallOptions& options) const {
-  const DefaultFloatingPoint mode;
-  CallControl control(options);
-  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
-  absl::StatusOr<AuditBatchResponse> response =
-      RunAudits(request, HelpersOf(options), [&control] { return control.IsStopped(); });
-  if (!response.ok()) return control.OrWhyEnded(response.status());
-  response->engine = ThisEngine();
-  return response;
+  return Answered<AuditBatchResponse>(request, limits_, options, [&](const auto& valid, auto stopped) {
+    return RunAudits(valid, HelpersOf(options), stopped);
+  });
 }
 
 absl::StatusOr<FitResponse> LocalSolver::DoFit(const FitRequest& request, const CallOptions& options) const {
-  const DefaultFloatingPoint mode;
-  CallControl control(options);
-  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
-  absl::StatusOr<FitResponse> response =
-      RunFit(request, HelpersOf(options), [&control] { return control.IsStopped(); });
-  if (!response.ok()) return control.OrWhyEnded(response.status());
-  response->engine = ThisEngine();
-  return response;
+  return Answered<FitResponse>(request, limits_, options, [&](const auto& valid, auto stopped) {
+    return RunFit(valid, HelpersOf(options), stopped);
+  });
 }
 
 absl::StatusOr<MultiContactResponse> LocalSolver::DoMultiContact(const MultiContactRequest& request,

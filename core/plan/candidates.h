@@ -12,19 +12,9 @@
 
 namespace ricochet {
 
-// The time that one impact takes, by order of magnitude on a processor of 2020.
-enum class CostClass {
-  kLine,      // One straight path without events: 2 ns in lanes, 30 to 100 ns alone.
-  kEvents,    // A closed form whose events have to be proved: 4 to 20 ns in lanes, 25 to 400 ns alone.
-  kForms,     // Formulas that have no lanes: 35 ns alone and in lanes.
-  kSections,  // A path of sections, each with elementary functions or a series: 0.5 to 3 us.
-  kSteps,     // An integrator's steps, some hundred: 100 to 500 us.
-};
-
 struct Candidate {
   Model model = Model::kUnspecified;
   EffectSet simulates;
-  CostClass cost = CostClass::kLine;
 };
 
 inline constexpr EffectSet kPlanarEffects = {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction,
@@ -37,35 +27,35 @@ inline constexpr EffectSet kDurationEffects =
 
 // Alone, the sliding model takes as long as the planar one; in lanes it takes a seventh of its time.
 inline constexpr Candidate kPlanarCandidates[] = {
-    {Model::kFrictionless, {}, CostClass::kLine},
-    {Model::kSliding, {Effect::kFriction}, CostClass::kLine},
-    {Model::kPlanar, kPlanarEffects, CostClass::kEvents},
-    {Model::kCompliant, kCompliantEffects, CostClass::kSections},
-    {Model::kFiniteDuration, kDurationEffects, CostClass::kSteps},
+    {Model::kFrictionless, {}},
+    {Model::kSliding, {Effect::kFriction}},
+    {Model::kPlanar, kPlanarEffects},
+    {Model::kCompliant, kCompliantEffects},
+    {Model::kFiniteDuration, kDurationEffects},
 };
 
 // With friction, the forms of a pendulum without it and of first order are slower and less exact than the closed form.
 // They serve where the caller excludes the higher orders, which the closed form has.
 inline constexpr Candidate kPendulumCandidates[] = {
-    {Model::kPendulum, kPlanarEffects, CostClass::kEvents},
-    {Model::kFrictionless, {}, CostClass::kForms},
-    {Model::kFirstOrder, {Effect::kFriction, Effect::kSlipStop}, CostClass::kForms},
-    {Model::kCompliant, kCompliantEffects, CostClass::kSections},
-    {Model::kFiniteDuration, kDurationEffects, CostClass::kSteps},
+    {Model::kPendulum, kPlanarEffects},
+    {Model::kFrictionless, {}},
+    {Model::kFirstOrder, {Effect::kFriction, Effect::kSlipStop}},
+    {Model::kCompliant, kCompliantEffects},
+    {Model::kFiniteDuration, kDurationEffects},
 };
 
 // Without friction, the form without it has half the rounding errors of the closed form.
 inline constexpr Candidate kSmoothPendulumCandidates[] = {
-    {Model::kFrictionless, {}, CostClass::kForms},
-    {Model::kPendulum, kPlanarEffects, CostClass::kEvents},
-    {Model::kCompliant, kCompliantEffects, CostClass::kSections},
-    {Model::kFiniteDuration, kDurationEffects, CostClass::kSteps},
+    {Model::kFrictionless, {}},
+    {Model::kPendulum, kPlanarEffects},
+    {Model::kCompliant, kCompliantEffects},
+    {Model::kFiniteDuration, kDurationEffects},
 };
 
 inline constexpr Candidate kSpatialCandidates[] = {
-    {Model::kFrictionless, {}, CostClass::kLine},
-    {Model::kSliding, {Effect::kFriction}, CostClass::kLine},
-    {Model::kSpatial, kSpatialEffects, CostClass::kSections},
+    {Model::kFrictionless, {}},
+    {Model::kSliding, {Effect::kFriction}},
+    {Model::kSpatial, kSpatialEffects},
 };
 
 }  // namespace ricochet

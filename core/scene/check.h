@@ -3,6 +3,7 @@
 #ifndef RICOCHET_CORE_SCENE_CHECK_H_
 #define RICOCHET_CORE_SCENE_CHECK_H_
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -17,6 +18,16 @@
 #include "ricochet/error.h"
 
 namespace ricochet {
+
+inline bool AllFinite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+// "has 2 entries: must have 1"
+inline Violation CountViolation(std::string field, size_t found, size_t wanted) {
+  return MakeViolation(std::move(field), absl::StrCat("has ", found, found == 1 ? " entry" : " entries"),
+                       absl::StrCat("have ", wanted));
+}
 
 class Check {
  public:
@@ -48,10 +59,7 @@ class Check {
 
   // Requires that the list has `wanted` entries, and returns whether it has.
   bool Length(const std::string& field, size_t found, size_t wanted) {
-    Require(found == wanted, [&] {
-      return MakeViolation(field, absl::StrCat("has ", found, found == 1 ? " entry" : " entries"),
-                           absl::StrCat("have ", wanted));
-    });
+    Require(found == wanted, [&] { return CountViolation(field, found, wanted); });
     return found == wanted;
   }
 

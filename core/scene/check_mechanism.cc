@@ -21,10 +21,6 @@ constexpr char kKept[] = "mechanism.kept_coordinates";
 // rounded to single precision are taken.
 constexpr double kBaseRounding = 1e-6;
 
-bool AllFinite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-}
-
 std::string EntryOf(const char* field, size_t entry) { return absl::StrCat(field, "[", entry, "]"); }
 
 // Returns whether M, J and q' go together.

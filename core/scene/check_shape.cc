@@ -10,8 +10,8 @@
 #include "absl/strings/str_join.h"
 #include "core/base/decimal.h"
 #include "core/contact/delassus.h"
-#include "core/contact/inertia.h"
 #include "core/contact/reduction.h"
+#include "core/contact/symmetric_matrix.h"
 #include "core/scene/check.h"
 
 namespace ricochet {
@@ -22,10 +22,6 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // How far the largest principal moment may exceed the sum of the other two, divided by the sum of all three: tensors of
 // plates and rods that were rounded to single precision are taken.
 constexpr double kMomentRounding = 1e-6;
-
-bool AllFinite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-}
 
 std::string ListText(const std::vector<double>& values) {
   return absl::StrCat("[", absl::StrJoin(values, ", ", [](std::string* out, double x) { *out += ShortestDecimal(x); }),
@@ -47,7 +43,7 @@ Violation MatrixViolation(const std::string& field, const std::vector<double>& u
 bool CheckMatrix(const std::string& field, const std::vector<double>& upper, double least, const char* rule,
                  Check& check) {
   if (!check.Length(field, upper.size(), 6) || !AllFinite(upper)) return false;
-  const bool holds = IsSurelyDefinite(upper) || SmallestScaledEigenvalue(upper) > least;
+  const bool holds = IsSurelyDefinite(upper) || SmallestScaledEigenvalue(Symmetric(upper.data())) > least;
   check.Require(holds, [&] { return MatrixViolation(field, upper, rule); });
   return holds;
 }
@@ -110,7 +106,7 @@ void CheckOne(const Mechanism& mechanism, Check& check) { CheckMechanism(mechani
 // A body's tensor is positive definite, and none of its principal moments exceeds the sum of the other two.
 void CheckInertia(const std::string& field, const std::vector<double>& upper, Check& check) {
   if (!CheckMatrix(field, upper, 16.0 * kEpsilon, "positive definite", check)) return;
-  check.Require(LargestMomentShare(upper) <= 0.5 + 0.5 * kMomentRounding, [&] {
+  check.Require(LargestMomentShare(Symmetric(upper.data())) <= 0.5 + 0.5 * kMomentRounding, [&] {
     return MatrixViolation(field, upper,
                            "that of a body: its largest principal moment is at most the sum of the other two");
   });

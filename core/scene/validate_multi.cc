@@ -8,8 +8,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/decimal.h"
-#include "core/contact/inertia.h"
 #include "core/contact/reduction.h"
+#include "core/contact/symmetric_matrix.h"
 #include "core/scene/check.h"
 #include "core/scene/numbers.h"
 
@@ -46,7 +46,7 @@ void CheckBody(const FreeBody& body, size_t index, int directions, Check& check)
   if (!body.angular_rad_s.empty()) check.Length(name("angular_rad_s"), body.angular_rad_s.size(), turns);
   const std::vector<double>& inertia = body.inertia_com_kg_m2;
   if (!check.Length(name("inertia_com_kg_m2"), inertia.size(), directions == 2 ? 1 : 6)) return;
-  if (!std::all_of(inertia.begin(), inertia.end(), [](double x) { return std::isfinite(x); })) return;
+  if (!AllFinite(inertia)) return;
   if (directions == 2) {
     check.Number(NumberPath{"free_bodies.bodies", static_cast<int>(index), "inertia_com_kg_m2", 0}, inertia[0],
                  NumberRule::kPositive);

@@ -13,10 +13,8 @@ namespace ricochet {
 
 template <>
 struct Map<LimitCheck> : Between<LimitCheck, v1::LimitCheck> {
-  using Fields =
-      Entries<Entry(&T::value, &P::value, &P::set_value), Entry(&T::limit, &P::limit, &P::set_limit),
-              Entry(&T::excess, &P::excess, &P::set_excess), Entry(&T::allowance, &P::allowance, &P::set_allowance),
-              Entry(&T::verdict, &P::verdict, &P::set_verdict)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(value), RICOCHET_FIELD(limit), RICOCHET_FIELD(excess),
+                                          RICOCHET_FIELD(allowance), RICOCHET_FIELD(verdict));
 };
 
 // A check stands in an array under the number of its limit, and in a message under its name.
@@ -31,46 +29,34 @@ struct CheckField {
   }
 };
 
-using LimitEntries =
-    Entries<CheckField<AuditLimit::kSharp>{&v1::AuditLimits::sharp, &v1::AuditLimits::mutable_sharp},
-            CheckField<AuditLimit::kEnergy>{&v1::AuditLimits::energy, &v1::AuditLimits::mutable_energy},
-            CheckField<AuditLimit::kNormalImpulse>{&v1::AuditLimits::normal_impulse,
-                                                   &v1::AuditLimits::mutable_normal_impulse},
-            CheckField<AuditLimit::kPenetration>{&v1::AuditLimits::penetration, &v1::AuditLimits::mutable_penetration},
-            CheckField<AuditLimit::kCone>{&v1::AuditLimits::cone, &v1::AuditLimits::mutable_cone}>;
+constexpr auto kLimitEntries = Entries(
+    CheckField<AuditLimit::kSharp>{&v1::AuditLimits::sharp, &v1::AuditLimits::mutable_sharp},
+    CheckField<AuditLimit::kEnergy>{&v1::AuditLimits::energy, &v1::AuditLimits::mutable_energy},
+    CheckField<AuditLimit::kNormalImpulse>{&v1::AuditLimits::normal_impulse, &v1::AuditLimits::mutable_normal_impulse},
+    CheckField<AuditLimit::kPenetration>{&v1::AuditLimits::penetration, &v1::AuditLimits::mutable_penetration},
+    CheckField<AuditLimit::kCone>{&v1::AuditLimits::cone, &v1::AuditLimits::mutable_cone});
 
 template <>
 struct Map<AuditReport> : Between<AuditReport, v1::AuditReport> {
-  using Fields = Entries<
-      Entry(&T::regime, &P::regime, &P::set_regime), Entry(&T::w_rank, &P::w_rank, &P::set_w_rank),
-      Entry(&T::admissible, &P::admissible, &P::set_admissible),
-      Entry(&T::unexplained, &P::unexplained, &P::set_unexplained),
-      Entry(&T::distance, &P::distance_m_s, &P::set_distance_m_s),
-      Entry(&T::compression_ended, &P::compression_ended, &P::set_compression_ended),
-      Nested<&P::coefficients, &P::mutable_coefficients,
-             Entries<Entry(&T::newton, &v1::Coefficients::newton, &v1::Coefficients::set_newton),
-                     Entry(&T::poisson, &v1::Coefficients::poisson, &v1::Coefficients::set_poisson),
-                     Entry(&T::energetic, &v1::Coefficients::energetic, &v1::Coefficients::set_energetic),
-                     Entry(&T::tangential, &v1::Coefficients::tangential, &v1::Coefficients::set_tangential)>>{},
-      Entry(&T::normal_impulse, &P::normal_impulse_n_s, &P::set_normal_impulse_n_s),
-      Entry(&T::normal_impulse_compression, &P::normal_compression_n_s, &P::set_normal_compression_n_s),
-      Entry(&T::tangential_impulse, &P::tangential_impulse_n_s, &P::mutable_tangential_impulse_n_s),
-      Entry(&T::friction_mismatch, &P::friction_mismatch_n_s, &P::mutable_friction_mismatch_n_s),
-      Entry(&T::normal_impulse_uncertainty, &P::normal_impulse_uncertainty_n_s, &P::set_normal_impulse_uncertainty_n_s),
-      Entry(&T::tangential_impulse_uncertainty, &P::tangential_impulse_uncertainty_n_s,
-            &P::mutable_tangential_impulse_uncertainty_n_s),
-      Entry(&T::work_normal_compression, &P::work_normal_compression_j, &P::set_work_normal_compression_j),
-      Entry(&T::work_normal_restitution, &P::work_normal_restitution_j, &P::set_work_normal_restitution_j),
-      Entry(&T::work_tangential_compression, &P::work_tangential_compression_j, &P::set_work_tangential_compression_j),
-      Entry(&T::work_tangential_restitution, &P::work_tangential_restitution_j, &P::set_work_tangential_restitution_j),
-      Entry(&T::energy_change, &P::energy_change_j, &P::set_energy_change_j),
-      Entry(&T::residual, &P::residual_j, &P::set_residual_j),
-      Nested<&P::path_velocity, &P::mutable_path_velocity,
-             Entries<Entry(&T::path_tangential_velocity, &v1::ContactVelocity::tangential_m_s,
-                           &v1::ContactVelocity::mutable_tangential_m_s),
-                     Entry(&T::path_normal_velocity, &v1::ContactVelocity::normal_m_s,
-                           &v1::ContactVelocity::set_normal_m_s)>>{},
-      Nested<&P::limits, &P::mutable_limits, LimitEntries>{}>;
+  static constexpr auto kFields = Entries(
+      RICOCHET_FIELD(regime), RICOCHET_FIELD(w_rank), RICOCHET_FIELD(admissible), RICOCHET_FIELD(unexplained),
+      RICOCHET_FIELD_AS(distance, distance_m_s), RICOCHET_FIELD(compression_ended),
+      Nested(RICOCHET_ACCESS(coefficients), Entries(RICOCHET_FIELD(newton), RICOCHET_FIELD(poisson),
+                                                    RICOCHET_FIELD(energetic), RICOCHET_FIELD(tangential))),
+      RICOCHET_FIELD_AS(normal_impulse, normal_impulse_n_s),
+      RICOCHET_FIELD_AS(normal_impulse_compression, normal_compression_n_s),
+      RICOCHET_FIELD_AS(tangential_impulse, tangential_impulse_n_s),
+      RICOCHET_FIELD_AS(friction_mismatch, friction_mismatch_n_s),
+      RICOCHET_FIELD_AS(normal_impulse_uncertainty, normal_impulse_uncertainty_n_s),
+      RICOCHET_FIELD_AS(tangential_impulse_uncertainty, tangential_impulse_uncertainty_n_s),
+      RICOCHET_FIELD_AS(work_normal_compression, work_normal_compression_j),
+      RICOCHET_FIELD_AS(work_normal_restitution, work_normal_restitution_j),
+      RICOCHET_FIELD_AS(work_tangential_compression, work_tangential_compression_j),
+      RICOCHET_FIELD_AS(work_tangential_restitution, work_tangential_restitution_j),
+      RICOCHET_FIELD_AS(energy_change, energy_change_j), RICOCHET_FIELD_AS(residual, residual_j),
+      Nested(RICOCHET_ACCESS(path_velocity), Entries(RICOCHET_FIELD_AS(path_tangential_velocity, tangential_m_s),
+                                                     RICOCHET_FIELD_AS(path_normal_velocity, normal_m_s))),
+      Nested(RICOCHET_ACCESS(limits), kLimitEntries));
 };
 
 // Pairs the tallies of a limit in the same way.
@@ -98,15 +84,13 @@ struct TallyField {
 // An absent tally has no rows, and its first index is then -1 and not 0.
 template <>
 struct Map<AuditSummary> : Between<AuditSummary, v1::AuditSummary> {
-  using Fields =
-      Entries<Entry(&T::rows, &P::rows, &P::set_rows), Entry(&T::admissible, &P::admissible, &P::set_admissible),
-              Defaulted(&T::invalid, &P::has_invalid, &P::invalid, &P::mutable_invalid),
-              Defaulted(&T::unexplained, &P::has_unexplained, &P::unexplained, &P::mutable_unexplained),
-              TallyField<AuditLimit::kSharp>{&P::sharp, &P::mutable_sharp},
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(rows), RICOCHET_FIELD(admissible), Defaulted(RICOCHET_FIELD(invalid)),
+              Defaulted(RICOCHET_FIELD(unexplained)), TallyField<AuditLimit::kSharp>{&P::sharp, &P::mutable_sharp},
               TallyField<AuditLimit::kEnergy>{&P::energy, &P::mutable_energy},
               TallyField<AuditLimit::kNormalImpulse>{&P::normal_impulse, &P::mutable_normal_impulse},
               TallyField<AuditLimit::kPenetration>{&P::penetration, &P::mutable_penetration},
-              TallyField<AuditLimit::kCone>{&P::cone, &P::mutable_cone}>;
+              TallyField<AuditLimit::kCone>{&P::cone, &P::mutable_cone});
 };
 
 // A column of rates is a message of its own, as a list of lists needs one.
@@ -125,50 +109,38 @@ struct RatesEntry {
 
 template <>
 struct Map<AuditColumns> : Between<AuditColumns, v1::AuditColumns> {
-  using Fields =
-      Entries<Entry(&T::tangential_m_s, &P::tangential_m_s, &P::mutable_tangential_m_s),
-              Entry(&T::tangential_2_m_s, &P::tangential_2_m_s, &P::mutable_tangential_2_m_s),
-              Entry(&T::normal_m_s, &P::normal_m_s, &P::mutable_normal_m_s),
-              Entry(&T::tangential_after_m_s, &P::tangential_after_m_s, &P::mutable_tangential_after_m_s),
-              Entry(&T::tangential_2_after_m_s, &P::tangential_2_after_m_s, &P::mutable_tangential_2_after_m_s),
-              Entry(&T::normal_after_m_s, &P::normal_after_m_s, &P::mutable_normal_after_m_s),
-              Entry(&T::friction, &P::friction, &P::mutable_friction),
-              Entry(&T::velocity_uncertainty_m_s, &P::velocity_uncertainty_m_s, &P::mutable_velocity_uncertainty_m_s),
-              RatesEntry{}>;
+  static constexpr auto kFields = Entries(
+      RICOCHET_FIELD(tangential_m_s), RICOCHET_FIELD(tangential_2_m_s), RICOCHET_FIELD(normal_m_s),
+      RICOCHET_FIELD(tangential_after_m_s), RICOCHET_FIELD(tangential_2_after_m_s), RICOCHET_FIELD(normal_after_m_s),
+      RICOCHET_FIELD(friction), RICOCHET_FIELD(velocity_uncertainty_m_s), RatesEntry{});
 };
 
 template <>
 struct Map<ObservedRates> : Between<ObservedRates, v1::ObservedRates> {
-  using Fields = Entries<Entry(&T::rates_rad_s, &P::rates_rad_s, &P::mutable_rates_rad_s)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(rates_rad_s));
 };
 
 template <>
 struct Map<AuditRequest> : Between<AuditRequest, v1::AuditRequest> {
-  using Fields = Entries<
-      Entry(&T::scene, &P::scene, &P::mutable_scene),
-      Flat<&T::observed, OneOf<Case(&P::has_contact_velocity, &P::contact_velocity, &P::mutable_contact_velocity),
-                               Case(&P::has_rates, &P::rates, &P::mutable_rates)>>{},
-      Entry(&T::velocity_uncertainty_m_s, &P::velocity_uncertainty_m_s, &P::set_velocity_uncertainty_m_s)>;
+  static constexpr auto kFields = Entries(
+      RICOCHET_FIELD(scene), Flat(&T::observed, OneOf(RICOCHET_ACCESS(contact_velocity), RICOCHET_ACCESS(rates))),
+      RICOCHET_FIELD(velocity_uncertainty_m_s));
 };
 
 template <>
 struct Map<AuditResponse> : Between<AuditResponse, v1::AuditResponse> {
-  using Fields = Entries<Entry(&T::report, &P::report, &P::mutable_report),
-                         Entry(&T::contact_energy_j, &P::contact_energy_j, &P::set_contact_energy_j),
-                         Entry(&T::engine, &P::engine, &P::mutable_engine)>;
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(report), RICOCHET_FIELD(contact_energy_j), RICOCHET_FIELD(engine));
 };
 
 template <>
 struct Map<AuditBatchRequest> : Between<AuditBatchRequest, v1::AuditBatchRequest> {
-  using Fields =
-      Entries<Entry(&T::scene, &P::scene, &P::mutable_scene), Entry(&T::columns, &P::columns, &P::mutable_columns)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(columns));
 };
 
 template <>
 struct Map<AuditBatchResponse> : Between<AuditBatchResponse, v1::AuditBatchResponse> {
-  using Fields =
-      Entries<Entry(&T::reports, &P::reports, &P::mutable_reports),
-              Entry(&T::summary, &P::summary, &P::mutable_summary), Entry(&T::engine, &P::engine, &P::mutable_engine)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(reports), RICOCHET_FIELD(summary), RICOCHET_FIELD(engine));
 };
 
 v1::AuditReport ToProto(const AuditReport& report) { return Sent(report); }

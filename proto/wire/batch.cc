@@ -44,22 +44,19 @@ absl::Status Misfit(const std::string& what, size_t found, size_t wanted) {
 
 template <>
 struct Map<BatchSetup> : Between<BatchSetup, v1::BatchSetup> {
-  using Fields =
-      Entries<Entry(&T::scene, &P::scene, &P::mutable_scene), Entry(&T::fields, &P::fields, &P::mutable_fields),
-              Entry(&T::columns, &P::columns, &P::mutable_columns), Flat<&T::demand, DemandEntries<P>>{}>;
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(fields), RICOCHET_FIELD(columns), Flat(&T::demand, kDemandEntries));
 };
 
 template <>
 struct Map<BadRow> : Between<BadRow, v1::BadRow> {
-  using Fields = Entries<Entry(&T::row, &P::row, &P::set_row), Entry(&T::status, &P::status, &P::set_status),
-                         Entry(&T::field, &P::field, &P::mutable_field),
-                         Entry(&T::description, &P::description, &P::mutable_description)>;
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(row), RICOCHET_FIELD(status), RICOCHET_FIELD(field), RICOCHET_FIELD(description));
 };
 
 template <>
 struct Map<BatchSummary> : Between<BatchSummary, v1::BatchSummary> {
-  using Fields = Entries<Entry(&T::counts, &P::counts, &P::mutable_counts),
-                         Entry(&T::bad_rows, &P::bad_rows, &P::mutable_bad_rows)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(counts), RICOCHET_FIELD(bad_rows));
 };
 
 v1::BatchSetup ToProto(const BatchSetup& setup) { return Sent(setup); }
@@ -84,6 +81,10 @@ absl::Status CopyOutputs(const v1::SolveBatchResponse& response, size_t first, s
   }
   if (response.regimes().size() != count) return Misfit("regimes", response.regimes().size(), count);
   if (response.statuses().size() != count) return Misfit("statuses", response.statuses().size(), count);
+  for (const v1::BadRow& bad : response.summary().bad_rows()) {
+    if (bad.row() >= 0 && static_cast<size_t>(bad.row()) < count) continue;
+    return absl::DataLossError(absl::StrCat("the batch's answer names row ", bad.row(), " of ", count));
+  }
   for (size_t c = 0; c < columns; ++c) {
     CopyDoubles(response.outputs(static_cast<int>(c)), rows.outputs[c].subspan(first, count));
   }

@@ -1,4 +1,4 @@
-// DemandEntries: the fields of a demand, which stand in the message of each request that makes one.
+// kDemandEntries: the fields of a demand, which stand in the message of each request that makes one.
 
 #ifndef RICOCHET_PROTO_WIRE_DEMAND_H_
 #define RICOCHET_PROTO_WIRE_DEMAND_H_
@@ -9,11 +9,8 @@
 
 namespace ricochet {
 
-template <typename P>
-using DemandEntries = Entries<Entry(&DemandFields::relative_tolerance, &P::has_relative_tolerance,
-                                    &P::relative_tolerance, &P::set_relative_tolerance),
-                              Entry(&DemandFields::required, &P::required, &P::mutable_required),
-                              Entry(&DemandFields::excluded, &P::excluded, &P::mutable_excluded)>;
+inline constexpr auto kDemandEntries =
+    Entries(RICOCHET_FIELD(relative_tolerance), RICOCHET_FIELD(required), RICOCHET_FIELD(excluded));
 
 }  // namespace ricochet
 

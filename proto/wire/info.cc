@@ -56,12 +56,9 @@ static void ToProto(const ServerLimits& limits, v1::ServerLimits& proto) {
 
 template <>
 struct Map<InfoResponse> : Between<InfoResponse, v1::InfoResponse> {
-  using Fields =
-      Entries<Entry(&T::engine, &P::engine, &P::mutable_engine), Entry(&T::limits, &P::limits, &P::mutable_limits),
-              Entry(&T::server_limits, &P::has_server_limits, &P::server_limits, &P::mutable_server_limits),
-              Entry(&T::certified, &P::certified, &P::set_certified),
-              Entry(&T::finite_duration, &P::finite_duration, &P::set_finite_duration),
-              Entry(&T::systems, &P::systems, &P::mutable_systems), Entry(&T::models, &P::models, &P::mutable_models)>;
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(engine), RICOCHET_FIELD(limits), RICOCHET_FIELD(server_limits), RICOCHET_FIELD(certified),
+              RICOCHET_FIELD(finite_duration), RICOCHET_FIELD(systems), RICOCHET_FIELD(models));
 };
 
 v1::InfoRequest ToProto(const InfoRequest& /*request*/) { return {}; }

@@ -3,13 +3,11 @@
 //
 //   template <>
 //   struct Map<PowerLaw> : Between<PowerLaw, v1::PowerLaw> {
-//     using Fields = Entries<Entry(&T::alpha, &P::alpha, &P::set_alpha),
-//                            Entry(&T::exponent, &P::exponent, &P::set_exponent)>;
+//     static constexpr auto kFields = Entries(RICOCHET_FIELD(alpha), RICOCHET_FIELD(exponent));
 //   };
 //
 // The file that states the map then has ToProto(const PowerLaw&, v1::PowerLaw&) and FromProto(const v1::PowerLaw&,
-// PowerLaw&); where other files need them, its header declares them. A map is a constant, so that the compiler makes of
-// it what it would make of assignments.
+// PowerLaw&); where other files need them, its header declares them.
 //
 // ToProto writes to a message without fields, FromProto to a struct as its constructor leaves it.
 
@@ -23,6 +21,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -40,41 +39,50 @@ struct Between {
   using P = Message;
 };
 
-// Entries that are known when the program is compiled, so that no pointer to a member is left in it.
-template <auto... kEntry>
+// Entries are a constant, so that the compiler makes of them what it would make of assignments.
+template <typename... Parts>
 struct Entries {
+  std::tuple<Parts...> parts;
+
+  explicit constexpr Entries(Parts... its_parts) : parts(its_parts...) {}
+
   template <typename Value, typename Message>
-  static void Write(const Value& value, Message& message) {
-    (kEntry.Write(value, message), ...);
+  void Write(const Value& value, Message& message) const {
+    std::apply([&](const auto&... part) { (part.Write(value, message), ...); }, parts);
   }
   template <typename Message, typename Value>
-  static void Read(const Message& message, Value& value) {
-    (kEntry.Read(message, value), ...);
+  void Read(const Message& message, Value& value) const {
+    std::apply([&](const auto&... part) { (part.Read(message, value), ...); }, parts);
   }
 };
 
+template <typename Value>
+inline constexpr bool kIsOptional = false;
+template <typename Value>
+inline constexpr bool kIsOptional<std::optional<Value>> = true;
+
 template <typename Struct>
 void ToProto(const Struct& value, typename Map<Struct>::P& proto) {
-  Map<Struct>::Fields::Write(value, proto);
+  Map<Struct>::kFields.Write(value, proto);
 }
 
 template <typename Struct>
 void FromProto(const typename Map<Struct>::P& proto, Struct& value) {
-  Map<Struct>::Fields::Read(proto, value);
+  Map<Struct>::kFields.Read(proto, value);
 }
 
 // The message of a struct, and the struct of a message.
 template <typename Struct>
 typename Map<Struct>::P Sent(const Struct& value) {
   typename Map<Struct>::P proto;
-  Map<Struct>::Fields::Write(value, proto);
+  Map<Struct>::kFields.Write(value, proto);
   return proto;
 }
 
 template <typename Struct>
 Struct Received(const typename Map<Struct>::P& proto) {
   Struct value;
-  Map<Struct>::Fields::Read(proto, value);
+  Map<Struct>::kFields.Read(proto, value);
   return value;
 }
 
@@ -120,187 +128,179 @@ void FromProto(const google::protobuf::RepeatedPtrField<Message>& proto, List& l
   for (const Message& message : proto) FromProto(message, list.emplace_back());
 }
 
-// A number, a flag or an enum.
-template <typename Struct, typename Value, typename Message, typename Number>
-struct NumberField {
-  Value Struct::*member;
-  Number (Message::*get)() const;
-  void (Message::*set)(Number);
+// Access calls the accessors that protobuf makes for a field. Each is a generic lambda, so that a field needs only
+// those of its kind: get and set for a number, a flag or an enum, get and edit for a text, a list or a message, and has
+// for what can be absent.
+template <typename Get, typename Set, typename Edit, typename Has>
+struct Access {
+  Get get;
+  Set set;
+  Edit edit;
+  Has has;
 
-  static Number Sent(Value value) {
-    if constexpr (std::is_enum_v<Value>)
-      return ToProto(value);
-    else
-      return value;
+  template <typename Value, typename Message>
+  void Write(const Value& value, Message& message) const {
+    if constexpr (std::is_enum_v<Value>) {
+      set(message, ToProto(value));
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+      static_assert(std::is_same_v<Value, decltype(get(message))>);
+      set(message, value);
+    } else {
+      ToProto(value, edit(message));
+    }
   }
-  static Value Received(Number number) {
-    if constexpr (std::is_enum_v<Value>)
-      return FromProto<Value>(number);
-    else
-      return number;
-  }
-  void Write(const Struct& value, Message& message) const { (message.*set)(Sent(value.*member)); }
-  void Read(const Message& message, Struct& value) const { value.*member = Received((message.*get)()); }
-};
-
-template <typename Struct, typename Number, typename Message>
-struct OptionalNumberField {
-  std::optional<Number> Struct::*member;
-  bool (Message::*has)() const;
-  Number (Message::*get)() const;
-  void (Message::*set)(Number);
-
-  void Write(const Struct& value, Message& message) const {
-    if ((value.*member).has_value()) (message.*set)(*(value.*member));
-  }
-  void Read(const Message& message, Struct& value) const {
-    value.*member = (message.*has)() ? std::optional<Number>((message.*get)()) : std::nullopt;
+  template <typename Message, typename Value>
+  void Read(const Message& message, Value& value) const {
+    if constexpr (std::is_enum_v<Value>) {
+      value = FromProto<Value>(get(message));
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+      value = get(message);
+    } else {
+      FromProto(get(message), value);
+    }
   }
 };
 
-// A text, a list or a message.
-template <typename Struct, typename Value, typename Message, typename Part>
-struct PartField {
-  Value Struct::*member;
-  const Part& (Message::*get)() const;
-  Part* (Message::*edit)();
-
-  void Write(const Struct& value, Message& message) const { ToProto(value.*member, *(message.*edit)()); }
-  void Read(const Message& message, Struct& value) const { FromProto((message.*get)(), value.*member); }
-};
-
-template <typename Struct, typename Value, typename Message, typename Part>
-struct OptionalPartField {
-  std::optional<Value> Struct::*member;
-  bool (Message::*has)() const;
-  const Part& (Message::*get)() const;
-  Part* (Message::*edit)();
-
-  void Write(const Struct& value, Message& message) const {
-    if ((value.*member).has_value()) ToProto(*(value.*member), *(message.*edit)());
-  }
-  void Read(const Message& message, Struct& value) const {
-    (value.*member).reset();
-    if ((message.*has)()) FromProto((message.*get)(), (value.*member).emplace());
-  }
-};
-
-template <typename Struct, typename Value, typename Message, typename Number>
-constexpr auto Entry(Value Struct::*member, Number (Message::*get)() const, void (Message::*set)(Number)) {
-  return NumberField<Struct, Value, Message, Number>{member, get, set};
-}
-template <typename Struct, typename Number, typename Message>
-constexpr auto Entry(std::optional<Number> Struct::*member, bool (Message::*has)() const,
-                     Number (Message::*get)() const, void (Message::*set)(Number)) {
-  return OptionalNumberField<Struct, Number, Message>{member, has, get, set};
-}
-template <typename Struct, typename Value, typename Message, typename Part>
-constexpr auto Entry(Value Struct::*member, const Part& (Message::*get)() const, Part* (Message::*edit)()) {
-  return PartField<Struct, Value, Message, Part>{member, get, edit};
-}
-template <typename Struct, typename Value, typename Message, typename Part>
-constexpr auto Entry(std::optional<Value> Struct::*member, bool (Message::*has)() const,
-                     const Part& (Message::*get)() const, Part* (Message::*edit)()) {
-  return OptionalPartField<Struct, Value, Message, Part>{member, has, get, edit};
+template <typename Get, typename Set, typename Edit, typename Has>
+constexpr auto MakeAccess(Get get, Set set, Edit edit, Has has) {
+  return Access<Get, Set, Edit, Has>{get, set, edit, has};
 }
 
-// A part that is always sent, and that keeps the value of its constructor if a message lacks it.
-template <typename Struct, typename Value, typename Message, typename Part>
-struct DefaultedField {
-  PartField<Struct, Value, Message, Part> field;
-  bool (Message::*has)() const;
+#define RICOCHET_ACCESS(name)                                                                     \
+  ricochet::MakeAccess([](const auto& message) -> decltype(auto) { return message.name(); },      \
+                       [](auto& message, const auto& value) { message.set_##name(value); },       \
+                       [](auto& message) -> decltype(auto) { return *message.mutable_##name(); }, \
+                       [](const auto& message) { return message.has_##name(); })
 
-  void Write(const Struct& value, Message& message) const { field.Write(value, message); }
-  void Read(const Message& message, Struct& value) const {
-    if ((message.*has)()) field.Read(message, value);
-  }
-};
-template <typename Struct, typename Value, typename Message, typename Part>
-constexpr auto Defaulted(Value Struct::*member, bool (Message::*has)() const, const Part& (Message::*get)() const,
-                         Part* (Message::*edit)()) {
-  return DefaultedField<Struct, Value, Message, Part>{{member, get, edit}, has};
-}
+// Pairs a member of a struct with a field. An optional member is unset where the field is absent.
+template <typename Member, typename Access>
+struct Field {
+  Member member;
+  Access access;
 
-// The fields of a member, which stand in the message of its struct.
-template <auto kMember, typename Fields>
-struct Flat {
   template <typename Struct, typename Message>
-  static void Write(const Struct& value, Message& message) {
-    Fields::Write(value.*kMember, message);
+  void Write(const Struct& value, Message& message) const {
+    const auto& number = member(value);
+    if constexpr (kIsOptional<std::remove_cvref_t<decltype(number)>>) {
+      if (number.has_value()) access.Write(*number, message);
+    } else {
+      access.Write(number, message);
+    }
   }
   template <typename Message, typename Struct>
-  static void Read(const Message& message, Struct& value) {
-    Fields::Read(message, value.*kMember);
+  void Read(const Message& message, Struct& value) const {
+    auto& number = member(value);
+    if constexpr (kIsOptional<std::remove_cvref_t<decltype(number)>>) {
+      number.reset();
+      if (access.has(message)) access.Read(message, number.emplace());
+    } else {
+      access.Read(message, number);
+    }
+  }
+};
+
+template <typename Member, typename Access>
+constexpr auto MakeField(Member member, Access access) {
+  return Field<Member, Access>{member, access};
+}
+
+#define RICOCHET_FIELD(name) RICOCHET_FIELD_AS(name, name)
+#define RICOCHET_FIELD_AS(member, field) \
+  ricochet::MakeField(                   \
+      [](auto& value) -> auto& { return value.member; }, RICOCHET_ACCESS(field))
+
+// A part that is always sent, and that keeps the value of its constructor if a message lacks it.
+template <typename Field>
+struct Defaulted {
+  Field field;
+
+  explicit constexpr Defaulted(Field its_field) : field(its_field) {}
+
+  template <typename Struct, typename Message>
+  void Write(const Struct& value, Message& message) const {
+    field.Write(value, message);
+  }
+  template <typename Message, typename Struct>
+  void Read(const Message& message, Struct& value) const {
+    if (field.access.has(message)) field.Read(message, value);
+  }
+};
+
+// The fields of a member, which stand in the message of its struct.
+template <typename Value, typename Struct, typename Fields>
+struct Flat {
+  Value Struct::*member;
+  Fields fields;
+
+  constexpr Flat(Value Struct::*its_member, Fields its_fields) : member(its_member), fields(its_fields) {}
+
+  template <typename Message>
+  void Write(const Struct& value, Message& message) const {
+    fields.Write(value.*member, message);
+  }
+  template <typename Message>
+  void Read(const Message& message, Struct& value) const {
+    fields.Read(message, value.*member);
   }
 };
 
 // Members of a struct that stand in a message of their own, which is always sent.
-template <auto kGet, auto kEdit, typename Fields>
+template <typename Access, typename Fields>
 struct Nested {
+  Access access;
+  Fields fields;
+
+  constexpr Nested(Access its_access, Fields its_fields) : access(its_access), fields(its_fields) {}
+
   template <typename Struct, typename Message>
-  static void Write(const Struct& value, Message& message) {
-    Fields::Write(value, *(message.*kEdit)());
+  void Write(const Struct& value, Message& message) const {
+    fields.Write(value, access.edit(message));
   }
   template <typename Message, typename Struct>
-  static void Read(const Message& message, Struct& value) {
-    Fields::Read((message.*kGet)(), value);
+  void Read(const Message& message, Struct& value) const {
+    fields.Read(access.get(message), value);
   }
 };
 
-// A member of a oneof: a message, or a number that is the only member of its alternative.
-template <typename Message, typename Part>
-struct PartCase {
-  bool (Message::*has)() const;
-  const Part& (Message::*get)() const;
-  Part* (Message::*edit)();
-
-  template <typename Value>
-  void Write(const Value& value, Message& message) const {
-    ToProto(value, *(message.*edit)());
-  }
-  template <typename Value>
-  void Read(const Message& message, Value& value) const {
-    FromProto((message.*get)(), value);
-  }
-};
-template <typename Message, typename Value>
-struct NumberCase : NumberField<Value, double, Message, double> {
-  bool (Message::*has)() const;
-};
-template <typename Message, typename Part>
-constexpr auto Case(bool (Message::*has)() const, const Part& (Message::*get)() const, Part* (Message::*edit)()) {
-  return PartCase<Message, Part>{has, get, edit};
-}
-template <typename Message, typename Value>
-constexpr auto Case(double Value::*member, bool (Message::*has)() const, double (Message::*get)() const,
-                    void (Message::*set)(double)) {
-  return NumberCase<Message, Value>{{member, get, set}, has};
-}
-
-// A oneof, whose members are the alternatives of a variant in their order, after the one that says that none is set.
-template <auto... kCase>
+// A oneof: its members stand for the alternatives of a variant in their order, after the one that says that none is set.
+// A member is the Access of a message, or the Field of a number that is the only member of its alternative.
+template <typename... Cases>
 struct OneOf {
+  std::tuple<Cases...> cases;
+
+  explicit constexpr OneOf(Cases... its_cases) : cases(its_cases...) {}
+
   template <typename Variant, typename Message>
-  static void Write(const Variant& variant, Message& message) {
-    static_assert(std::variant_size_v<Variant> == sizeof...(kCase) + 1);
-    WriteOne(variant, message, std::index_sequence_for<decltype(kCase)...>());
+  void Write(const Variant& variant, Message& message) const {
+    static_assert(std::variant_size_v<Variant> == sizeof...(Cases) + 1);
+    WriteOne(variant, message, std::index_sequence_for<Cases...>());
   }
   template <typename Message, typename Variant>
-  static void Read(const Message& message, Variant& variant) {
-    static_assert(std::variant_size_v<Variant> == sizeof...(kCase) + 1);
-    ReadOne(message, variant, std::index_sequence_for<decltype(kCase)...>());
+  void Read(const Message& message, Variant& variant) const {
+    static_assert(std::variant_size_v<Variant> == sizeof...(Cases) + 1);
+    ReadOne(message, variant, std::index_sequence_for<Cases...>());
   }
 
  private:
+  template <typename Case, typename Message>
+  static bool Has(const Case& one, const Message& message) {
+    if constexpr (requires { one.access; }) {
+      return one.access.has(message);
+    } else {
+      return one.has(message);
+    }
+  }
   template <typename Variant, typename Message, size_t... kIndex>
-  static void WriteOne(const Variant& variant, Message& message, std::index_sequence<kIndex...> /*indices*/) {
-    static_cast<void>(
-        ((variant.index() == kIndex + 1 && (kCase.Write(*std::get_if<kIndex + 1>(&variant), message), true)) || ...));
+  void WriteOne(const Variant& variant, Message& message, std::index_sequence<kIndex...> /*indices*/) const {
+    static_cast<void>(((variant.index() == kIndex + 1 &&
+                        (std::get<kIndex>(cases).Write(*std::get_if<kIndex + 1>(&variant), message), true)) ||
+                       ...));
   }
   template <typename Message, typename Variant, size_t... kIndex>
-  static void ReadOne(const Message& message, Variant& variant, std::index_sequence<kIndex...> /*indices*/) {
-    static_cast<void>(
-        (((message.*kCase.has)() && (kCase.Read(message, variant.template emplace<kIndex + 1>()), true)) || ...));
+  void ReadOne(const Message& message, Variant& variant, std::index_sequence<kIndex...> /*indices*/) const {
+    static_cast<void>(((Has(std::get<kIndex>(cases), message) &&
+                        (std::get<kIndex>(cases).Read(message, variant.template emplace<kIndex + 1>()), true)) ||
+                       ...));
   }
 };
 

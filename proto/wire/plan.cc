@@ -9,16 +9,14 @@ namespace ricochet {
 
 template <>
 struct Map<PlannedEffect> : Between<PlannedEffect, v1::PlannedEffect> {
-  using Fields =
-      Entries<Entry(&T::effect, &P::effect, &P::set_effect), Entry(&T::decision, &P::decision, &P::set_decision),
-              Entry(&T::size, &P::size, &P::set_size), Entry(&T::reason, &P::reason, &P::mutable_reason)>;
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(effect), RICOCHET_FIELD(decision), RICOCHET_FIELD(size), RICOCHET_FIELD(reason));
 };
 
 template <>
 struct Map<PlannedArithmetic> : Between<PlannedArithmetic, v1::PlannedArithmetic> {
-  using Fields =
-      Entries<Entry(&T::arithmetic, &P::arithmetic, &P::set_arithmetic), Entry(&T::reason, &P::reason, &P::set_reason),
-              Entry(&T::rounding_error, &P::has_rounding_error, &P::rounding_error, &P::set_rounding_error)>;
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(arithmetic), RICOCHET_FIELD(reason), RICOCHET_FIELD(rounding_error));
 };
 
 // The effects of a plan write their reasons only when they are listed.
@@ -33,14 +31,12 @@ static void FromProto(const google::protobuf::RepeatedPtrField<v1::PlannedEffect
 
 template <>
 struct Map<Plan> : Between<Plan, v1::Plan> {
-  using Fields = Entries<Entry(&T::model, &P::model, &P::set_model),
-                         Entry(&T::relative_tolerance, &P::relative_tolerance, &P::set_relative_tolerance),
-                         Entry(&T::neglected, &P::neglected, &P::set_neglected),
-                         Entry(&T::effects, &P::effects, &P::mutable_effects),
-                         Entry(&T::arithmetic, &P::arithmetic, &P::mutable_arithmetic)>;
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(model), RICOCHET_FIELD(relative_tolerance), RICOCHET_FIELD(neglected),
+              RICOCHET_FIELD(effects), RICOCHET_FIELD(arithmetic));
 };
 
-void ToProto(const Plan& plan, v1::Plan& proto) { Map<Plan>::Fields::Write(plan, proto); }
-void FromProto(const v1::Plan& proto, Plan& plan) { Map<Plan>::Fields::Read(proto, plan); }
+void ToProto(const Plan& plan, v1::Plan& proto) { Map<Plan>::kFields.Write(plan, proto); }
+void FromProto(const v1::Plan& proto, Plan& plan) { Map<Plan>::kFields.Read(proto, plan); }
 
 }  // namespace ricochet

@@ -1,6 +1,5 @@
 #include "proto/wire/requests.h"
 
-#include "proto/wire/bounds.h"
 #include "proto/wire/demand.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/map.h"
@@ -12,61 +11,95 @@ namespace ricochet {
 
 template <>
 struct Map<DerivativePaths> : Between<DerivativePaths, v1::DerivativePaths> {
-  using Fields = Entries<Entry(&T::of, &P::of, &P::mutable_of), Entry(&T::by, &P::by, &P::mutable_by),
-                         Entry(&T::find_thresholds, &P::find_thresholds, &P::set_find_thresholds)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(of), RICOCHET_FIELD(by), RICOCHET_FIELD(find_thresholds));
 };
 
 template <>
 struct Map<SolveRequest> : Between<SolveRequest, v1::SolveRequest> {
-  using Fields = Entries<Entry(&T::scene, &P::scene, &P::mutable_scene),
-                         Entry(&T::history_at_n_s, &P::history_at_n_s, &P::mutable_history_at_n_s),
-                         Entry(&T::inadmissible_is_error, &P::inadmissible_is_error, &P::set_inadmissible_is_error),
-                         Entry(&T::history_intervals, &P::history_intervals, &P::set_history_intervals),
-                         Entry(&T::force_intervals, &P::force_intervals, &P::set_force_intervals),
-                         Entry(&T::certified_digits, &P::certified_digits, &P::set_certified_digits),
-                         Entry(&T::both_ends, &P::both_ends, &P::set_both_ends),
-                         Entry(&T::derivatives, &P::has_derivatives, &P::derivatives, &P::mutable_derivatives),
-                         Flat<&T::demand, DemandEntries<P>>{}>;
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(history_at_n_s), RICOCHET_FIELD(inadmissible_is_error),
+              RICOCHET_FIELD(history_intervals), RICOCHET_FIELD(force_intervals), RICOCHET_FIELD(certified_digits),
+              RICOCHET_FIELD(both_ends), RICOCHET_FIELD(derivatives), Flat(&T::demand, kDemandEntries));
 };
 
 template <>
 struct Map<SolveResponse> : Between<SolveResponse, v1::SolveResponse> {
-  using Fields =
-      Entries<Entry(&T::outcome, &P::outcome, &P::mutable_outcome), Entry(&T::engine, &P::engine, &P::mutable_engine)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(outcome), RICOCHET_FIELD(engine));
 };
 
 template <>
 struct Map<PlanRequest> : Between<PlanRequest, v1::PlanRequest> {
-  using Fields = Entries<Entry(&T::scene, &P::scene, &P::mutable_scene), Flat<&T::demand, DemandEntries<P>>{}>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(scene), Flat(&T::demand, kDemandEntries));
 };
 
 template <>
 struct Map<PlanResponse> : Between<PlanResponse, v1::PlanResponse> {
-  using Fields =
-      Entries<Entry(&T::plan, &P::plan, &P::mutable_plan), Entry(&T::engine, &P::engine, &P::mutable_engine)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(plan), RICOCHET_FIELD(engine));
+};
+
+template <>
+struct Map<Range> : Between<Range, v1::Range> {
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(lower), RICOCHET_FIELD(upper));
+};
+
+template <>
+struct Map<CoefficientBounds> : Between<CoefficientBounds, v1::CoefficientBounds> {
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(newton), RICOCHET_FIELD(poisson), RICOCHET_FIELD(energetic),
+                                          RICOCHET_FIELD(tangential), RICOCHET_FIELD(normal_total_n_s));
+};
+
+// The errors of the coefficients are sent with the coefficients only.
+struct CoefficientErrorsEntry {
+  static void Write(const NearlyVertical& nearly, v1::NearlyVertical& proto) {
+    if (nearly.coefficients.has_value()) ToProto(nearly.coefficient_errors, *proto.mutable_coefficient_errors());
+  }
+  static void Read(const v1::NearlyVertical& proto, NearlyVertical& nearly) {
+    if (proto.has_coefficients()) FromProto(proto.coefficient_errors(), nearly.coefficient_errors);
+  }
+};
+
+template <>
+struct Map<NearlyVertical> : Between<NearlyVertical, v1::NearlyVertical> {
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(bounds), RICOCHET_FIELD(newton_error), RICOCHET_FIELD(poisson_error),
+              RICOCHET_FIELD(tangential_error), RICOCHET_FIELD(normal_total_error_n_s), RICOCHET_FIELD(coefficients),
+              CoefficientErrorsEntry{});
+};
+
+template <>
+struct Map<CriticalFriction> : Between<CriticalFriction, v1::CriticalFriction> {
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(stick), RICOCHET_FIELD(stop_compression), RICOCHET_FIELD(stop),
+                                          RICOCHET_FIELD(reversal), RICOCHET_FIELD(jam));
+};
+
+template <>
+struct Map<Bounds> : Between<Bounds, v1::Bounds> {
+  static constexpr auto kFields = Entries(
+      RICOCHET_FIELD(regime), RICOCHET_FIELD(friction_ratio), RICOCHET_FIELD(slope_ratio), RICOCHET_FIELD(sharp),
+      RICOCHET_FIELD(energy_only), RICOCHET_FIELD(nearly_vertical), RICOCHET_FIELD(critical), RICOCHET_FIELD(sampled));
+};
+
+template <>
+struct Map<Enclosure> : Between<Enclosure, v1::Enclosure> {
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(outer), RICOCHET_FIELD(attained), RICOCHET_FIELD(excess), RICOCHET_FIELD(boxes));
 };
 
 template <>
 struct Map<FieldRange> : Between<FieldRange, v1::FieldRange> {
-  using Fields = Entries<Entry(&T::path, &P::path, &P::mutable_path), Entry(&T::low, &P::low, &P::set_low),
-                         Entry(&T::high, &P::high, &P::set_high)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(path), RICOCHET_FIELD(low), RICOCHET_FIELD(high));
 };
 
 template <>
 struct Map<BoundsRequest> : Between<BoundsRequest, v1::BoundsRequest> {
-  using Fields =
-      Entries<Entry(&T::scene, &P::scene, &P::mutable_scene), Entry(&T::ranges, &P::ranges, &P::mutable_ranges),
-              Entry(&T::certified_digits, &P::certified_digits, &P::set_certified_digits),
-              Entry(&T::derivatives, &P::has_derivatives, &P::derivatives, &P::mutable_derivatives)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(ranges),
+                                          RICOCHET_FIELD(certified_digits), RICOCHET_FIELD(derivatives));
 };
 
 template <>
 struct Map<BoundsResponse> : Between<BoundsResponse, v1::BoundsResponse> {
-  using Fields =
-      Entries<Entry(&T::bounds, &P::bounds, &P::mutable_bounds), Entry(&T::engine, &P::engine, &P::mutable_engine),
-              Entry(&T::enclosure, &P::has_enclosure, &P::enclosure, &P::mutable_enclosure),
-              Entry(&T::certificate, &P::has_certificate, &P::certificate, &P::mutable_certificate),
-              Entry(&T::derivatives, &P::derivatives, &P::mutable_derivatives)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(bounds), RICOCHET_FIELD(engine), RICOCHET_FIELD(enclosure),
+                                          RICOCHET_FIELD(certificate), RICOCHET_FIELD(derivatives));
 };
 
 v1::SolveRequest ToProto(const SolveRequest& request) { return Sent(request); }

@@ -22,49 +22,41 @@ static_assert(v1::Regime_MAX <= 255, "a chunk has one byte for each regime");
 
 template <>
 struct Map<ListValues> : Between<ListValues, v1::ListValues> {
-  using Fields = Entries<Entry(&T::values, &P::values, &P::mutable_values)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(values));
 };
 
 template <>
 struct Map<Linspace> : Between<Linspace, v1::Linspace> {
-  using Fields = Entries<Entry(&T::start, &P::start, &P::set_start), Entry(&T::stop, &P::stop, &P::set_stop),
-                         Entry(&T::count, &P::count, &P::set_count)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(start), RICOCHET_FIELD(stop), RICOCHET_FIELD(count));
 };
 
 template <>
 struct Map<Logspace> : Between<Logspace, v1::Logspace> {
-  using Fields = Entries<Entry(&T::start, &P::start, &P::set_start), Entry(&T::stop, &P::stop, &P::set_stop),
-                         Entry(&T::count, &P::count, &P::set_count)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(start), RICOCHET_FIELD(stop), RICOCHET_FIELD(count));
 };
 
 template <>
 struct Map<Axis> : Between<Axis, v1::Axis> {
-  using Fields = Entries<Entry(&T::path, &P::path, &P::mutable_path),
-                         Flat<&T::values, OneOf<Case(&P::has_list, &P::list, &P::mutable_list),
-                                                Case(&P::has_linspace, &P::linspace, &P::mutable_linspace),
-                                                Case(&P::has_logspace, &P::logspace, &P::mutable_logspace)>>{}>;
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(path),
+              Flat(&T::values, OneOf(RICOCHET_ACCESS(list), RICOCHET_ACCESS(linspace), RICOCHET_ACCESS(logspace))));
 };
 
 template <>
 struct Map<SweepRequest> : Between<SweepRequest, v1::SweepRequest> {
-  using Fields = Entries<
-      Flat<&T::grid,
-           Entries<Entry(&Grid::scene, &P::scene, &P::mutable_scene), Entry(&Grid::axes, &P::axes, &P::mutable_axes),
-                   Entry(&Grid::combination, &P::combination, &P::set_combination)>>{},
-      Entry(&T::columns, &P::columns, &P::mutable_columns),
-      Entry(&T::with_regime, &P::with_regime, &P::set_with_regime),
-      Entry(&T::first_index, &P::first_index, &P::set_first_index),
-      Entry(&T::end_index, &P::has_end_index, &P::end_index, &P::set_end_index), Flat<&T::demand, DemandEntries<P>>{}>;
+  static constexpr auto kFields =
+      Entries(Flat(&T::grid, Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(axes), RICOCHET_FIELD(combination))),
+              RICOCHET_FIELD(columns), RICOCHET_FIELD(with_regime), RICOCHET_FIELD(first_index),
+              RICOCHET_FIELD(end_index), Flat(&T::demand, kDemandEntries));
 };
 
 template <>
 struct Map<Tally> : Between<Tally, v1::Tally> {
-  using Fields =
-      Entries<Entry(&T::count, &P::count, &P::set_count), Entry(&T::first_index, &P::first_index, &P::set_first_index)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(count), RICOCHET_FIELD(first_index));
 };
 
-void ToProto(const Tally& tally, v1::Tally& proto) { Map<Tally>::Fields::Write(tally, proto); }
-void FromProto(const v1::Tally& proto, Tally& tally) { Map<Tally>::Fields::Read(proto, tally); }
+void ToProto(const Tally& tally, v1::Tally& proto) { Map<Tally>::kFields.Write(tally, proto); }
+void FromProto(const v1::Tally& proto, Tally& tally) { Map<Tally>::kFields.Read(proto, tally); }
 
 // The tallies that are not empty, each with the number that it has in its array. Tallies of numbers that this build
 // does not know are joined.
@@ -104,18 +96,17 @@ static constexpr TalliesField<Enum, Tallies, Message, Number> TalliesEntry(
 
 template <>
 struct Map<SweepSummary> : Between<SweepSummary, v1::SweepSummary> {
-  using Fields = Entries<Entry(&T::points, &P::points, &P::set_points),
-                         TalliesEntry<Regime>(&T::by_regime, &P::by_regime, &P::mutable_by_regime,
-                                              &v1::RegimeTally::regime, &v1::RegimeTally::set_regime),
-                         TalliesEntry<Model>(&T::by_model, &P::by_model, &P::mutable_by_model, &v1::ModelTally::model,
-                                             &v1::ModelTally::set_model),
-                         Defaulted(&T::inadmissible, &P::has_inadmissible, &P::inadmissible, &P::mutable_inadmissible),
-                         Entry(&T::elapsed_s, &P::has_elapsed_s, &P::elapsed_s, &P::set_elapsed_s)>;
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(points),
+                                          TalliesEntry<Regime>(&T::by_regime, &P::by_regime, &P::mutable_by_regime,
+                                                               &v1::RegimeTally::regime, &v1::RegimeTally::set_regime),
+                                          TalliesEntry<Model>(&T::by_model, &P::by_model, &P::mutable_by_model,
+                                                              &v1::ModelTally::model, &v1::ModelTally::set_model),
+                                          Defaulted(RICOCHET_FIELD(inadmissible)), RICOCHET_FIELD(elapsed_s));
 };
 
-void ToProto(const SweepSummary& summary, v1::SweepSummary& proto) { Map<SweepSummary>::Fields::Write(summary, proto); }
+void ToProto(const SweepSummary& summary, v1::SweepSummary& proto) { Map<SweepSummary>::kFields.Write(summary, proto); }
 void FromProto(const v1::SweepSummary& proto, SweepSummary& summary) {
-  Map<SweepSummary>::Fields::Read(proto, summary);
+  Map<SweepSummary>::kFields.Read(proto, summary);
 }
 
 v1::SweepRequest ToProto(const SweepRequest& request) { return Sent(request); }

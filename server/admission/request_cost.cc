@@ -25,7 +25,8 @@ constexpr double kFewContacts = 27;    // States times the cube of the contacts,
 constexpr size_t kFewVelocities = 32;  // Several contacts have those of the system, and the outputs asked for.
 
 RequestCost Expensive(CostCause cause, double size) {
-  return {.cause = cause, .octave = static_cast<int>(std::log2(std::max(size, 1.0)))};
+  constexpr double kMostSize = 1e300;  // Sizes are products of what a caller sends, and no limit has been applied yet.
+  return {.cause = cause, .octave = static_cast<int>(std::log2(std::clamp(size, 1.0, kMostSize)))};
 }
 
 // The links of a linkage, or the coordinates of a mechanism.

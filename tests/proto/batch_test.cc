@@ -86,6 +86,9 @@ TEST(CopyOutputsTest, RefusesAnAnswerThatDoesNotFit) {
   EXPECT_EQ(broken([](auto& bad) { bad.mutable_outputs(0)->resize(16); }), absl::StatusCode::kDataLoss);
   EXPECT_EQ(broken([](auto& bad) { bad.set_regimes("\x03"); }), absl::StatusCode::kDataLoss);
   EXPECT_EQ(broken([](auto& bad) { bad.clear_statuses(); }), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(broken([](auto& bad) { bad.mutable_summary()->add_bad_rows()->set_row(3); }), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(broken([](auto& bad) { bad.mutable_summary()->add_bad_rows()->set_row(-1); }), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(broken([](auto& bad) { bad.mutable_summary()->add_bad_rows()->set_row(2); }), absl::StatusCode::kOk);
 }
 
 TEST(CopyOutputsTest, TakesAStatusThatThisBuildDoesNotKnowAsUnspecified) {

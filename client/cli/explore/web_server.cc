@@ -9,6 +9,7 @@
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -118,6 +119,7 @@ WebServer::~WebServer() {
 // Only a name can be bound to another address than its owner's, so that every address is good beyond loopback, where
 // this server may have several.
 bool WebServer::IsOwn(absl::string_view authority) const {
+  if (authority.empty()) return false;
   // Clients leave out the port 80, which http:// stands for.
   constexpr int kDefaultPort = 80;
   const bool has_port = authority.find(':', authority.find(']') + 1) != authority.npos;
@@ -149,8 +151,13 @@ int WebServer::Handle(mg_connection* connection, void* server) {
   Exchange exchange(connection);
   const absl::Status allowed = self.Check(exchange);
   if (!allowed.ok()) mg_disable_connection_keep_alive(connection);
-  // A thread of civetweb has a stack of 100 KiB, which is too small to compute on.
-  std::thread([&] { self.answer_(exchange, allowed); }).join();
+  // A thread of civetweb has a stack of 100 KiB, which is too small to compute on. The system may have none left, and an
+  // exception must not get into civetweb.
+  try {
+    std::thread([&] { self.answer_(exchange, allowed); }).join();
+  } catch (const std::system_error&) {
+    exchange.Reply(503, "text/plain", "the system has no thread left\n", "");
+  }
   return 1;
 }
 

@@ -37,7 +37,7 @@ void AddDemandOptions(CLI::App& app, DemandOptions& options) {
   const std::string group = "Accuracy and effects";
   app.add_option("--tolerance", options.tolerance,
                  "Largest relative error of the contact velocity after the impact; effects that provably change less "
-                 "are left out; default 1e-12")
+                 "are left out [1e-12]")
       ->type_name("X")
       ->group(group);
   AddList(app, "--require", options.required, "Effects that are simulated even if they are negligible")

@@ -274,9 +274,30 @@ std::string PlotScript(const Plot& plot, const std::string& terminal) {
   return script;
 }
 
+// The length of an axis, which may have both signs, and a margin must not leave the range of doubles.
+bool CanBeDrawn(const Plot& plot) {
+  constexpr double kMost = 1e300;
+  const auto fits = [](double number) { return !std::isfinite(number) || std::fabs(number) <= kMost; };
+  for (const Panel& panel : plot.panels) {
+    for (const Curve& curve : panel.curves) {
+      for (const auto& [x, y] : curve.points) {
+        if (!fits(x) || !fits(y)) return false;
+      }
+    }
+    for (const MapPoint& point : panel.map) {
+      if (!fits(point.x) || !fits(point.y) || !fits(point.value)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 absl::StatusOr<std::string> DrawAs(const Plot& plot, const std::string& format) {
+  if (!CanBeDrawn(plot)) {
+    return absl::InvalidArgumentError(
+        "the picture has numbers beyond 1e300, which no axis can show; --format csv writes them");
+  }
   absl::StatusOr<std::string> picture = RunGnuplot(PlotScript(plot, format));
   if (!picture.ok()) return picture.status();
   const char* const end = format == "svg" ? "</svg>" : format == "png" ? "IEND\xAE\x42\x60\x82" : "%%EOF";

@@ -66,7 +66,8 @@ inline constexpr double kLetterWidth = 0.62;
 inline std::vector<std::string> PictureFormats() { return {"svg", "png", "pdf"}; }
 
 // Returns the bytes of a whole picture in one of PictureFormats.
-// Errors: FAILED_PRECONDITION if gnuplot is not installed, INTERNAL if it fails.
+// Errors: INVALID_ARGUMENT for numbers beyond 1e300, FAILED_PRECONDITION if gnuplot is not installed, INTERNAL if it
+// fails.
 absl::StatusOr<std::string> DrawAs(const Plot& plot, const std::string& format);
 
 // Draws to the file `path`, which appears complete or not at all. Its ending says the format; standard output

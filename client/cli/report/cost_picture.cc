@@ -203,7 +203,7 @@ std::pair<int, int> TimeRange(const CostChunk& study) {
   double least = 1e300;
   double most = 0.0;
   for (const CostRow& row : study.rows) {
-    if (!row.solve.has_value()) continue;
+    if (!row.solve.has_value() || !(row.solve->median_s > 0.0)) continue;
     least = std::min(least, row.solve->median_s);
     most = std::max(most, row.solve->median_s);
   }

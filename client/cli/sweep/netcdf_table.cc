@@ -144,7 +144,8 @@ absl::StatusOr<Contents> ContentsOf(File& file, const std::vector<Variable>& var
   }
   for (const int dimension : contents.dimensions) {
     contents.counts.push_back(file.Length(dimension));
-    // A product of the lengths of a broken file might overflow.
+    // The lengths of a broken file are not to be believed: their product might overflow, or be 0 beside a huge one.
+    if (contents.counts.back() < 0 || contents.counts.back() > SweepTable::kMostPoints) return TooManyPoints();
     if (contents.points <= SweepTable::kMostPoints) contents.points *= contents.counts.back();
   }
   if (!file.status().ok()) return file.status();

@@ -122,12 +122,17 @@ absl::StatusOr<std::vector<ShardFile>> FindShardFiles(const std::string& file) {
   const std::string beginning = target.filename().string() + ".shard-";
   std::vector<std::string> paths;
   std::error_code failure;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, failure)) {
-    const std::string name = entry.path().filename();
+  // A folder that cannot be read to its end must not pass for one with fewer shards.
+  for (auto entry = std::filesystem::directory_iterator(directory, failure);
+       !failure && entry != std::filesystem::directory_iterator(); entry.increment(failure)) {
+    const std::string name = entry->path().filename();
     if (!absl::StartsWith(name, beginning) || !absl::EndsWith(name, kManifestEnding)) continue;
     if (absl::EndsWith(name, absl::StrCat(".part", kManifestEnding))) continue;
     const std::string path = (target.parent_path() / name).string();
     paths.push_back(path.substr(0, path.size() - std::string_view(kManifestEnding).size()));
+  }
+  if (failure && failure != std::errc::no_such_file_or_directory) {
+    return absl::ErrnoToStatus(failure.value(), absl::StrCat("cannot read the folder ", directory.string()));
   }
   if (paths.empty()) {
     return absl::NotFoundError(absl::StrCat("there is no finished shard ", file, ".shard-I-of-N with its manifest"));

@@ -24,7 +24,7 @@ struct RetryPolicy {
   // How often in a row, without a new point, a sweep that has begun is taken up again by another call; UNKNOWN and
   // INTERNAL, as proxies report a dead server, are reasons too. >= 0; 0 means never.
   int max_resumes = 10;
-  std::chrono::milliseconds initial_backoff{100};  // > 0.
+  std::chrono::milliseconds initial_backoff{100};  // > 0, at most a year, as all times.
   std::chrono::milliseconds max_backoff{2000};     // >= initial_backoff.
   double multiplier = 2.0;                         // >= 1.
 };

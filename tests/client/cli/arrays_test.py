@@ -72,6 +72,15 @@ class ArraysTest(RicochetCase):
         again = self.made("sweep", "--request", "request.json", "--format", "csv")
         self.assertEqual(again, self.made(*GRID, "--format", "csv"))
 
+    def test_the_lengths_of_a_broken_netcdf_file_are_not_believed(self):
+        with netCDF4.Dataset(WORK / "broken.nc", "w") as data:
+            data.ricochet_request = "{}"
+            data.createDimension("x", None)
+            data.createDimension("y", 2**40)
+            data.createVariable("y", "f8", ("y",), chunksizes=(1024,))
+            data.createVariable("number", "f8", ("x", "y"), chunksizes=(1, 1024))
+        self.assertIn("points", self.refused("plot", "broken.nc", "-o", "broken.svg"))
+
     def test_a_zip_and_a_part_of_a_grid_are_lists_of_points(self):
         for name, sweep in {"zip.nc": ZIP, "part.nc": [*GRID, "--range", "11:31"]}.items():
             self.made(*sweep, "-o", name)

@@ -136,7 +136,7 @@ class ExploreTest(RicochetCase):
 
     def test_answers_nobody_from_elsewhere(self):
         for header in ("Host: evil.example", f"Host: evil.example:{self.host.split(':')[1]}", "Host: 127.0.0.1:1",
-                       "Origin: http://evil.example", "Origin: null", "Origin: https://" + self.host,
+                       "Origin: http://evil.example", "Origin: http://", "Origin: null", "Origin: https://" + self.host,
                        "Authorization: Bearer " + "0" * 32, "Authorization:"):
             name = header.split(":")[0]
             headers = [header] if name != "Authorization" else []

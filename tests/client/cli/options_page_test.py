@@ -56,6 +56,9 @@ class OptionsPageTest(unittest.TestCase):
     def test_the_page_lists_the_options_of_the_program(self):
         described = json.loads(subprocess.run([DESCRIBE], capture_output=True, check=True, timeout=120).stdout)
         program = next(one for one in described["programs"] if one["name"] == "ricochet")
+        for name, options in commands_of(program):
+            for option in options:
+                self.assertNotRegex(option["description"], r"\bdefault\b", f"{name}: a default stands in brackets")
         page = PAGE.read_text()
         before, rest = page.split(FIRST)
         listed, after = rest.split(LAST)

@@ -55,6 +55,14 @@ class PlotFileTest(RicochetCase):
             self.made("plot", "two.nc", "-o", f"two.{ending}")
             self.assertTrue((WORK / f"two.{ending}").read_bytes().startswith(start))
 
+    def test_numbers_that_no_axis_can_show_are_refused(self):
+        self.made(*SWEEPS["line"], "-o", "line.csv")
+        lines = (WORK / "line.csv").read_text().splitlines()
+        for sign, line in (("", 3), ("-", 4)):
+            lines[line] = lines[line].rsplit(",", 1)[0] + f",{sign}1.5e308"
+        (WORK / "far.csv").write_text("\n".join(lines) + "\n")
+        self.assertIn("numbers beyond 1e300", self.refused("plot", "far.csv", "-o", "far.svg"))
+
     def test_a_derivative_has_a_short_name(self):
         self.made(*SWEEPS["derivative"], "-o", "slope.csv")
         for name in (f"d({NEWTON})/d({MU})", "d(newton)/d(mu)", "newton"):

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/contact/reduction.h"
+#include "core/contact/symmetric_matrix.h"
 #include "tests/support/scenes/multi_contact_scenes.h"
 
 namespace ricochet {

@@ -39,11 +39,42 @@ double ErrorOf(Model model, const std::vector<CostRow>& rows) {
   return least;
 }
 
+// The time that one impact takes, by order of magnitude on a processor of 2020.
+enum class CostClass {
+  kLine,      // One straight path without events: 2 ns in lanes, 30 to 100 ns alone.
+  kEvents,    // A closed form whose events have to be proved: 4 to 20 ns in lanes, 25 to 400 ns alone.
+  kForms,     // Formulas that have no lanes: 35 ns alone and in lanes.
+  kSections,  // A path of sections, each with elementary functions or a series: 0.5 to 3 us.
+  kSteps,     // An integrator's steps, some hundred: 100 to 500 us.
+};
+
+CostClass ClassOf(Model model, bool has_lanes) {
+  switch (model) {
+    case Model::kFrictionless:
+    case Model::kFirstOrder:
+      return has_lanes ? CostClass::kLine : CostClass::kForms;
+    case Model::kSliding:
+      return CostClass::kLine;
+    case Model::kPendulum:
+    case Model::kPlanar:
+      return CostClass::kEvents;
+    case Model::kFiniteDuration:
+      return CostClass::kSteps;
+    default:
+      return CostClass::kSections;
+  }
+}
+
 TEST(ModelOrderTest, ClassesOfCostDoNotDecreaseAlongTheCandidates) {
-  const auto is_cheaper = [](const Candidate& one, const Candidate& other) { return one.cost < other.cost; };
-  EXPECT_TRUE(std::is_sorted(std::begin(kPlanarCandidates), std::end(kPlanarCandidates), is_cheaper));
-  EXPECT_TRUE(std::is_sorted(std::begin(kPendulumCandidates), std::end(kPendulumCandidates), is_cheaper));
-  EXPECT_TRUE(std::is_sorted(std::begin(kSpatialCandidates), std::end(kSpatialCandidates), is_cheaper));
+  const auto is_sorted = [](const auto& candidates, bool has_lanes) {
+    return std::is_sorted(std::begin(candidates), std::end(candidates),
+                          [has_lanes](const Candidate& one, const Candidate& other) {
+                            return ClassOf(one.model, has_lanes) < ClassOf(other.model, has_lanes);
+                          });
+  };
+  EXPECT_TRUE(is_sorted(kPlanarCandidates, true));
+  EXPECT_TRUE(is_sorted(kPendulumCandidates, false));
+  EXPECT_TRUE(is_sorted(kSpatialCandidates, true));
 }
 
 // The reason why a plan takes the closed form at every tolerance: it is the cheaper one, too.

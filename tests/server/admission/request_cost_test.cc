@@ -70,6 +70,16 @@ TEST(RequestCost, CallsOfOneSizeShareAnOctaveAndLargerOnesAreApart) {
   EXPECT_EQ(certificate(8, 64).octave - certificate(4, 64).octave, 3) << "a certificate takes the cube of the links";
 }
 
+// The cost is asked before any limit is applied, and 2^1100 is no double.
+TEST(RequestCost, AnyNumberOfRangesHasACost) {
+  const auto with_ranges = [](size_t count) {
+    return CostOf(BoundsRequest{.scene = {}, .ranges = std::vector<FieldRange>(count)});
+  };
+  EXPECT_EQ(with_ranges(10).octave, 10);
+  EXPECT_EQ(with_ranges(1100).octave, with_ranges(16'000).octave);
+  EXPECT_GT(with_ranges(1100).octave, with_ranges(900).octave);
+}
+
 TEST(RequestCostTest, AFitIsNeverCheapAndGrowsWithRowsUnknownsStartsAndIterations) {
   FitRequest request = {.unknowns = {{.path = "mu"}}, .measured = {{.path = "x", .values = {1.0, 2.0}}}};
   request.max_iterations = 16;
