@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/contact/mechanism.h"
+#include "core/contact/symmetric_matrix.h"
 
 namespace ricochet {
 namespace {

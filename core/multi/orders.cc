@@ -153,11 +153,14 @@ class Search {
         Keep(std::move(state));
         return taken;
       }
-      // If two impacts do not affect each other, the contact with the smaller number is struck first.
-      next.erase(std::remove_if(next.begin(), next.end(), [&](int i) { return i < last && !coupled_[Place(i, last)]; }),
-                 next.end());
-      if (next.empty()) return taken;
+      // If two impacts do not affect each other, the contact with the smaller number is struck first. Where branches are
+      // left out, that order may be among them.
+      const auto others =
+          std::stable_partition(next.begin(), next.end(), [&](int i) { return i > last || coupled_[Place(i, last)]; });
+      if (others == next.begin() && !shares_) return taken;
+      if (others != next.begin()) next.erase(others, next.end());
       if (next.size() > 1 && !IsNew(state)) return taken;
+      if (shares_) LeaveOutBranches(budget - taken, state.events, next);
       for (size_t i = 0; i + 1 < next.size(); ++i) {
         const int64_t share = (budget - taken) / (shares_ ? static_cast<int64_t>(next.size() - i) : 1);
         Attained child = state;
@@ -183,6 +186,17 @@ class Search {
         return taken;
       }
     }
+  }
+
+  // Keeps as many branches as the budget follows to their ends, at least one, and not always the same.
+  void LeaveOutBranches(int64_t budget, int64_t events, std::vector<int>& next) {
+    const auto most = static_cast<size_t>(std::max<int64_t>(budget / kImpactsOfSequence, 1));
+    if (next.size() <= most) return;
+    orders_.complete = false;
+    orders_.sampled = true;
+    const auto first = static_cast<std::ptrdiff_t>(static_cast<size_t>(events) % next.size());
+    std::rotate(next.begin(), next.begin() + first, next.end());
+    next.resize(most);
   }
 
   // Two contacts that have struck each other in turn at the end of an order do so without end.
@@ -215,16 +229,30 @@ class Search {
     return true;
   }
 
+  static bool IsEnd(const Attained& state) {
+    return state.end != MultiContactEnd::kBudgetUsedUp && state.end != MultiContactEnd::kWedged;
+  }
+
+  // Tells which of two outcomes is left out where there are too many: one that has not ended, then that of more impacts.
+  static bool IsLonger(const Attained& x, const Attained& y) {
+    return IsEnd(x) == IsEnd(y) ? x.events > y.events : IsEnd(y);
+  }
+
   void Keep(Attained end) {
-    const bool is_end = end.end != MultiContactEnd::kBudgetUsedUp && end.end != MultiContactEnd::kWedged;
+    const bool is_end = IsEnd(end);
     orders_.complete = orders_.complete && is_end;
-    const auto same = std::find_if(orders_.outcomes.begin(), orders_.outcomes.end(), [&](const DistinctOutcome& other) {
+    auto same = std::find_if(orders_.outcomes.begin(), orders_.outcomes.end(), [&](const DistinctOutcome& other) {
       return (other.attained.end == end.end || is_end) && AreEqual(other.attained, end);
     });
     if (same == orders_.outcomes.end() && orders_.outcomes.size() >= kMostOutcomes) {
       orders_.complete = false;
       orders_.left_out = true;
-      return;
+      const auto longest = std::max_element(
+          orders_.outcomes.begin(), orders_.outcomes.end(),
+          [](const DistinctOutcome& x, const DistinctOutcome& y) { return IsLonger(y.attained, x.attained); });
+      if (!IsLonger(longest->attained, end)) return;
+      *longest = {};
+      same = longest;
     }
     DistinctOutcome& outcome = same == orders_.outcomes.end() ? orders_.outcomes.emplace_back() : *same;
     ++outcome.order_count;
@@ -236,6 +264,8 @@ class Search {
   }
 
   static constexpr size_t kMostBranched = 1024;
+  // So many impacts take most sequences to their ends.
+  static constexpr int64_t kImpactsOfSequence = 128;
   static constexpr int kMostNested = 64;
 
   const Problem& problem_;
@@ -253,8 +283,8 @@ class Search {
 }  // namespace
 
 Orders FindOrders(const Problem& problem, absl::FunctionRef<bool()> stopped, int64_t budget) {
-  // A tree that the budget holds is followed to its ends. Of any other the branches share the budget, so that the ends
-  // found come from all of them.
+  // A tree that the budget holds is followed whole. Of any other as many sequences are followed to their ends as the
+  // budget has room for; the branches share it, so that they come from all of them.
   Search whole(problem, /*shares=*/false, stopped);
   if (whole.Run(budget)) return std::move(whole).orders();
   Search parts(problem, /*shares=*/true, stopped);

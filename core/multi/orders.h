@@ -20,9 +20,10 @@
 
 namespace ricochet::multi {
 
-// The impacts that a search may take; sequences that have not ended then end with kBudgetUsedUp.
+// The impacts that a search may take. Of a larger tree some sequences are followed to their ends; one that has not
+// ended then ends with kBudgetUsedUp.
 inline constexpr int64_t kOrdersBudget = 4096;
-// The outcomes that an answer lists.
+// The outcomes that an answer lists. Of more, those are listed that end after the fewest impacts.
 inline constexpr size_t kMostOutcomes = 256;
 
 struct DistinctOutcome {
@@ -34,8 +35,9 @@ struct DistinctOutcome {
 
 struct Orders {
   std::vector<DistinctOutcome> outcomes;  // They differ by more than their errors.
-  bool complete = true;   // False if a sequence ran out of budget or jammed, or if outcomes are left out.
-  bool left_out = false;  // True if there are more than kMostOutcomes outcomes.
+  bool complete = true;   // False if a sequence ran out of budget or jammed, or if sequences or outcomes are left out.
+  bool sampled = false;   // True if not all sequences were followed.
+  bool left_out = false;  // True if more than kMostOutcomes outcomes were found.
 };
 
 // Once `stopped` says true, the answer means nothing.

@@ -215,9 +215,15 @@ class Answerer {
   void AddOrders() {
     const Orders orders = FindOrders(sorted_.problem, stopped_);
     orders_complete_ = orders.complete;
+    if (orders.sampled) {
+      answer_.refused.push_back(
+          {.method = MultiContactMethod::kOrders,
+           .reason = absl::StrCat("orders beyond those that ", kOrdersBudget, " impacts can follow to their ends")});
+    }
     if (orders.left_out) {
-      answer_.refused.push_back({.method = MultiContactMethod::kOrders,
-                                 .reason = absl::StrCat("outcomes of orders beyond the first ", kMostOutcomes)});
+      answer_.refused.push_back(
+          {.method = MultiContactMethod::kOrders,
+           .reason = absl::StrCat("outcomes of orders beyond the ", kMostOutcomes, " with the fewest impacts")});
     }
     for (const DistinctOutcome& distinct : orders.outcomes) {
       AttainedOutcome& outcome = answer_.orders.emplace_back(OutcomeOf(distinct.attained));

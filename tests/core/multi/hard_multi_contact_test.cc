@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_split.h"
+#include "absl/strings/string_view.h"
 #include "core/multi/energy.h"
 #include "core/multi/orders.h"
 #include "core/multi/possible.h"
@@ -268,7 +272,41 @@ TEST(HardMultiContactTest, OutcomesThatAreLeftOutAreSaid) {
       LocalSolver().MultiContact({.scene = scene, .methods = {MultiContactMethod::kOrders}}).value().answers.front();
   ASSERT_EQ(answer.orders.size(), kMostOutcomes);
   ASSERT_EQ(answer.refused.size(), 1U);
-  EXPECT_EQ(answer.refused[0].reason, "outcomes of orders beyond the first 256");
+  EXPECT_EQ(answer.refused[0].reason, "outcomes of orders beyond the 256 with the fewest impacts");
+}
+
+// The velocities of balls in a row after the impacts that an order such as "1-2-1" names.
+std::vector<double> AfterOrder(const std::string& order, const std::vector<double>& masses,
+                               const std::vector<double>& energetic, std::vector<double> v) {
+  for (const absl::string_view contact : absl::StrSplit(order, '-')) {
+    size_t i = 0;
+    EXPECT_TRUE(absl::SimpleAtoi(contact, &i)) << order;
+    --i;
+    EXPECT_GT(v[i], v[i + 1]) << order;
+    const double impulse = (1.0 + energetic[i]) * (v[i] - v[i + 1]) / (1.0 / masses[i] + 1.0 / masses[i + 1]);
+    v[i] -= impulse / masses[i];
+    v[i + 1] += impulse / masses[i + 1];
+  }
+  return v;
+}
+
+TEST(HardMultiContactTest, OfATreeBeyondTheBudgetManyOrdersAreFollowedToTheirEnds) {
+  const std::vector<double> masses = {1.0, 2.0, 1.5, 3.0, 1.0, 2.5, 1.0}, velocities = {4, 2, 1, 0, -1, -2, -4};
+  const std::vector<double> energetic = {0.9, 0.6, 0.6, 0.8, 0.5, 0.7};
+  const MultiContactRequest request = {.scene = RowOfBalls(masses, velocities, energetic),
+                                       .methods = {MultiContactMethod::kOrders}};
+  const MultiContactAnswer answer = LocalSolver().MultiContact(request).value().answers.front();
+  ASSERT_EQ(answer.refused.size(), 1U);
+  EXPECT_EQ(answer.refused[0].reason, "orders beyond those that 4096 impacts can follow to their ends");
+  EXPECT_GT(answer.orders.size(), 50U);
+  for (const AttainedOutcome& outcome : answer.orders) {
+    EXPECT_EQ(outcome.end, MultiContactEnd::kSeparated);
+    const std::vector<double> v = AfterOrder(outcome.orders[0], masses, energetic, velocities);
+    for (size_t i = 0; i < v.size(); ++i) {
+      EXPECT_NEAR(outcome.velocity[3 * i], v[i], 1e-12);
+      if (i > 0) EXPECT_GE(v[i], v[i - 1] - 1e-12);
+    }
+  }
 }
 
 // A lever of 3e17 m leaves W the rank one, and the smallest doubles round the velocity of the contact out of its range.
