@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/match.h"
@@ -45,7 +47,15 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
   bool boolean(bool) override { return Value(FieldDescriptor::CPPTYPE_BOOL) && Next(); }
   bool number_integer(int64_t) override { return Number() && Next(); }
   bool number_unsigned(uint64_t) override { return Number() && Next(); }
-  bool number_float(double, const std::string& token) override { return FitsDouble(token) && Number() && Next(); }
+  bool number_float(double value, const std::string& token) override {
+    const FieldDescriptor* field = Field();
+    const bool is_whole = field != nullptr && (field->cpp_type() == FieldDescriptor::CPPTYPE_INT32 ||
+                                               field->cpp_type() == FieldDescriptor::CPPTYPE_INT64);
+    if (is_whole && value != std::trunc(value)) {
+      return Fail(absl::StrCat(Path(), " = ", token, ": must be a whole number"));
+    }
+    return FitsDouble(token) && Number() && Next();
+  }
   bool string(std::string& words) override {
     const FieldDescriptor* field = Field();
     double number = 0.0;
@@ -70,16 +80,18 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     // Types of protobuf itself have a JSON of their own.
     const bool is_known = field != nullptr && !field->is_map() && field->message_type() != nullptr &&
                           !absl::StartsWith(field->message_type()->full_name(), "google.");
-    levels_.push_back({.type = is_known ? field->message_type() : nullptr});
-    return true;
+    return Descend({.type = is_known ? field->message_type() : nullptr});
   }
   bool end_object() override { return Leave(); }
   bool start_array(size_t) override {
     if (levels_.empty()) return Fail("must be an object: {\"pendulum\": {...}, ...}");
     const FieldDescriptor* field = Field();
-    if (field != nullptr && !field->is_repeated()) return Fail(absl::StrCat(Path(), ": must not be a list"));
-    levels_.push_back({.list = field, .is_list = true});
-    return true;
+    // The parser of the protos would take the entries of a list in a list for entries of the outer one.
+    const bool is_in_list = levels_.back().is_list;
+    if (field != nullptr && (is_in_list || !field->is_repeated())) {
+      return Fail(absl::StrCat(Path(), ": must not be a list"));
+    }
+    return Descend({.list = field, .is_list = true});
   }
   bool end_array() override { return Leave(); }
 
@@ -119,6 +131,13 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     std::map<std::string, std::string> given = {};  // How each field that was given before is spelled, by its name.
     std::map<const OneofDescriptor*, std::string> chosen = {};
   };
+
+  bool Descend(Level level) {
+    constexpr size_t kMostLevels = 100;  // Those of protobuf's own parsers.
+    if (levels_.size() >= kMostLevels) return Fail(absl::StrCat("must not nest more than ", kMostLevels, " levels"));
+    levels_.push_back(std::move(level));
+    return true;
+  }
 
   // The field whose value is at hand; null if it is not known.
   const FieldDescriptor* Field() const {

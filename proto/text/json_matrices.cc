@@ -65,9 +65,9 @@ absl::StatusOr<std::optional<Matrix>> MatrixAt(const std::string& text, const st
 // The shortest decimals that read back as the same doubles.
 std::string ListOf(const std::vector<double>& values) { return nlohmann::json(values).dump(); }
 
-absl::StatusOr<std::string> PackedW(const std::vector<double>& w, bool in_space) {
+absl::StatusOr<std::string> PackedW(const Matrix& matrix, const std::vector<double>& w, bool in_space) {
   const size_t rows = in_space ? 3 : 2;
-  if (w.size() != rows * rows) {
+  if (matrix.rows.size() != rows || w.size() != rows * rows) {
     return absl::InvalidArgumentError(absl::StrCat("w_per_kg has ", w.size(), " entries: must be ", rows, " x ", rows,
                                                    " in a ", in_space ? kSpatial : kPlanar));
   }
@@ -95,6 +95,29 @@ absl::string_view SystemBefore(const std::string& text, size_t at) {
   return last;
 }
 
+// The number of rates that the text states; nothing if it states none.
+std::optional<size_t> CountRates(const std::string& text) {
+  constexpr absl::string_view kRates = "\"rates\"";
+  for (size_t at = text.find(kRates); at != std::string::npos; at = text.find(kRates, at + 1)) {
+    const size_t begin = text.find_first_not_of(absl::StrCat(kBlanks, ":"), at + kRates.size());
+    const size_t end = text.find(']', at);
+    if (begin == std::string::npos || text[begin] != '[' || end == std::string::npos) continue;
+    const auto json = nlohmann::json::parse(text.begin() + static_cast<ptrdiff_t>(begin),
+                                            text.begin() + static_cast<ptrdiff_t>(end) + 1, nullptr, false);
+    if (json.is_array()) return json.size();
+  }
+  return std::nullopt;
+}
+
+// A matrix of a mechanism has a column for each rate: one that is written down transposed would be read as another.
+absl::Status CheckColumns(const std::string& text, const std::string& key, const Matrix& matrix) {
+  const std::optional<size_t> rates = CountRates(text);
+  const size_t columns = matrix.rows.front().size();
+  if (!rates.has_value() || columns == *rates) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("mechanism.", key, " has ", matrix.rows.size(), " rows of ", columns,
+                                                 " entries: must have rows of ", *rates, ", one for each of rates"));
+}
+
 absl::StatusOr<std::string> FlatText(const std::string& text, const std::string& key, size_t key_at,
                                      const Matrix& matrix) {
   std::vector<double> entries;
@@ -105,8 +128,11 @@ absl::StatusOr<std::string> FlatText(const std::string& text, const std::string&
     }
     entries.insert(entries.end(), row.begin(), row.end());
   }
+  if (key != "w_per_kg") {
+    if (absl::Status status = CheckColumns(text, key, matrix); !status.ok()) return status;
+  }
   const absl::string_view system = SystemBefore(text, key_at);
-  if (key == "w_per_kg" && system != kSeveral) return PackedW(entries, system == kSpatial);
+  if (key == "w_per_kg" && system != kSeveral) return PackedW(matrix, entries, system == kSpatial);
   return absl::StrCat("\"", key, "\": ", ListOf(entries));
 }
 

@@ -82,7 +82,11 @@ absl::Status AddJson(const Json& object, const std::string& where, const std::st
 absl::Status ParseWithoutTwins(const std::string& text, const std::string& name, Json& json) {
   std::vector<std::set<std::string>> keys;
   std::string twin;
-  const auto note = [&](int /*depth*/, Json::parse_event_t event, Json& part) {
+  bool is_deep = false;  // Copies of values that nest without end would fill the stack.
+  const auto note = [&](int depth, Json::parse_event_t event, Json& part) {
+    constexpr int kMostLevels = 100;
+    if (depth > kMostLevels) is_deep = true;
+    if (is_deep) return false;
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(part.get<std::string>()).second) twin = part.dump();
@@ -90,6 +94,7 @@ absl::Status ParseWithoutTwins(const std::string& text, const std::string& name,
   };
   try {
     json = Json::parse(text, note);
+    if (is_deep) return absl::InvalidArgumentError(absl::StrCat(name, " nests more than 100 levels deep"));
     if (twin.empty()) return absl::OkStatus();
     return absl::InvalidArgumentError(absl::StrCat(name, ": ", twin, " is given twice in one object"));
   } catch (const Json::parse_error& error) {
@@ -158,7 +163,8 @@ absl::Status CheckConformanceLaw(const std::string& law, const std::string& what
 absl::StatusOr<SimulatorAnswers> ReadSimulatorAnswers(const std::string& text, const std::string& name) {
   const absl::string_view start = absl::StripLeadingAsciiWhitespace(text);
   if (start.empty()) return absl::InvalidArgumentError(absl::StrCat(name, " is empty: must have answers"));
-  absl::StatusOr<SimulatorAnswers> all = start[0] == '{' ? ReadJson(text, name) : ReadCsv(text, name);
+  absl::StatusOr<SimulatorAnswers> all =
+      start[0] == '{' || start[0] == '[' ? ReadJson(text, name) : ReadCsv(text, name);
   if (all.ok() && all->answers.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(name, " has no answer: must have one at least"));
   }

@@ -166,7 +166,11 @@ absl::Status ReadSigmas(const FitDataOptions& options, FitRequest& request) {
     const auto pair = ReadPair("--sigma", typed, paths);
     if (!pair.ok()) return pair.status();
     const auto at = static_cast<size_t>(std::find(paths.begin(), paths.end(), pair->first) - paths.begin());
-    if (at == paths.size()) return InputError("--sigma", typed, "be NAME=SIGMA with the name of a measured column");
+    if (at == paths.size()) {
+      return InputError("--sigma", typed,
+                        absl::StrCat("be NAME=SIGMA with the name of a measured column (", absl::StrJoin(paths, ", "),
+                                     ")", DidYouMean(pair->first, paths)));
+    }
     const absl::StatusOr<double> sigma = ParseNumber(pair->second, "--sigma");
     if (!sigma.ok()) return sigma.status();
     if (!given.insert(pair->first).second) return GivenTwice("--sigma", pair->first);

@@ -1,8 +1,10 @@
 #include "client/cli/input/flag_names.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/input/connection_input.h"
 #include "client/cli/input/scene_input.h"
@@ -22,8 +24,25 @@ bool HasFlagsForScene(const CLI::App& command) {
          !IsGiven(command, "--request");
 }
 
+// The flags that set fields of requests, by how their paths begin.
+constexpr std::pair<const char*, const char*> kRequestFlags[] = {{"relative_tolerance", "--tolerance"},
+                                                                 {"required[", "--require"},
+                                                                 {"excluded[", "--exclude"},
+                                                                 {"first_index", "--range"},
+                                                                 {"end_index", "--range"},
+                                                                 {"time_limit_s", "--time-limit"},
+                                                                 {"velocity_uncertainty_m_s", "--uncertainty"},
+                                                                 {"states[", "--state"},
+                                                                 {"stiffness_range.", "--stiffness-ratio"},
+                                                                 {"contact_velocity.", "--observed-velocity"}};
+
 void NameFlag(const CLI::App& command, Violation& violation) {
   const std::string field = violation.field;
+  for (const auto& [beginning, flag] : kRequestFlags) {
+    if (!absl::StartsWith(field, beginning) || !IsGiven(command, flag)) continue;
+    violation.field = absl::StrCat(flag, ": ", field);
+    return;
+  }
   if (const std::string flag = FlagOfConnection(field); !flag.empty())
     violation.field = absl::StrCat(flag, ": ", field);
   for (const SceneFlag& flag : SceneFlags()) {

@@ -78,6 +78,15 @@ Scale ScaleOfCurves(const Panel& panel) {
   return ScaleFor(std::move(groups), panel.log_y);
 }
 
+// With equal scales, points in a row would leave the other axis no room.
+constexpr double kLeastProportion = 0.4;
+
+void Widen(double least, AxisRange& range) {
+  const double missing = std::max(0.0, least - (range.upper - range.lower));
+  range.lower -= 0.5 * missing;
+  range.upper += 0.5 * missing;
+}
+
 Axes AxesOf(const Panel& panel) {
   Axes axes{.log_x = panel.log_x, .log_y = panel.log_y};
   if (panel.robust) {
@@ -117,6 +126,11 @@ Axes AxesOf(const Panel& panel) {
     axes.y = RangeOf(axes.scale, margin, panel.y_noise);
   } else if (y.any()) {
     axes.y = RangeFor(y.least, y.most, margin, panel.y_noise, axes.log_y);
+  }
+  if (panel.equal_scales) {
+    const double least = kLeastProportion * std::max(axes.x.upper - axes.x.lower, axes.y.upper - axes.y.lower);
+    Widen(least, axes.x);
+    Widen(least, axes.y);
   }
   return axes;
 }

@@ -24,6 +24,15 @@ std::vector<double> NumbersOf(const AttainedOutcome& outcome) {
   return numbers;
 }
 
+// Adds an arrow, whose head is a fifth of its length.
+void AddArrow(const std::pair<double, double>& from, double x, double y, Points& points) {
+  const std::pair<double, double> to = {from.first + x, from.second + y};
+  const auto barb = [&](double side) {
+    return std::pair(to.first - 0.2 * x - side * 0.1 * y, to.second - 0.2 * y + side * 0.1 * x);
+  };
+  points.insert(points.end(), {from, to, barb(1.0), to, barb(-1.0), {NAN, NAN}});
+}
+
 // Lines from centres of mass to the points of contact, and arrows of velocities and normals.
 Panel StrikePanel(const FreeBodies& free, const std::vector<MultiContactPoint>& contacts) {
   Points arms, velocities, normals, centres, points;
@@ -48,17 +57,11 @@ Panel StrikePanel(const FreeBodies& free, const std::vector<MultiContactPoint>& 
     centres.emplace_back(body.position_m[0], body.position_m[1]);
     if (speed == 0.0) continue;
     const double scale = 0.7 * size / speed;
-    velocities.insert(velocities.end(), {centres.back(),
-                                         {centres.back().first + scale * velocity(body, 0),
-                                          centres.back().second + scale * velocity(body, 1)},
-                                         {NAN, NAN}});
+    AddArrow(centres.back(), scale * velocity(body, 0), scale * velocity(body, 1), velocities);
   }
   for (size_t i = 0; i < contacts.size(); ++i) {
     const double scale = 0.3 * size / std::hypot(contacts[i].normal[0], contacts[i].normal[1]);
-    normals.insert(normals.end(),
-                   {points[i],
-                    {points[i].first + scale * contacts[i].normal[0], points[i].second + scale * contacts[i].normal[1]},
-                    {NAN, NAN}});
+    AddArrow(points[i], scale * contacts[i].normal[0], scale * contacts[i].normal[1], normals);
   }
   Panel panel = {.title = "Before", .x_label = "x [m]", .y_label = "y [m]", .equal_scales = true};
   panel.curves = {
@@ -98,6 +101,7 @@ Panel OutcomesPanel(const MultiContactRequest& request, const MultiContactAnswer
       {.title = "possible", .points = bars, .style = "with lines linewidth 9 linecolor rgb '#BBDDEE'"},
       {.title = "orders", .points = orders, .style = "with points pointtype 6 pointsize 1.2 linecolor rgb '#D55E00'"},
       {.title = "springs", .points = springs, .style = "with points pointtype 2 pointsize 1.2 linecolor rgb 'black'"}};
+  std::erase_if(panel.curves, [](const Curve& curve) { return curve.points.empty(); });
   return panel;
 }
 

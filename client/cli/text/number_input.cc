@@ -41,7 +41,10 @@ double Radians(double numerator, double denominator) {
 }  // namespace
 
 absl::Status InputError(const std::string& what, const std::string& text, const std::string& rule) {
-  return InvalidRequest({{what, absl::StrCat("= ", text, ": must ", rule)}});
+  constexpr size_t kMostShown = 200;
+  const std::string shown =
+      text.size() <= kMostShown ? text : absl::StrCat(text.substr(0, kMostShown), "... (", text.size(), " characters)");
+  return InvalidRequest({{what, absl::StrCat("= ", shown, ": must ", rule)}});
 }
 
 std::string ReadNumber(const std::string& text, Spelling spelling, double& value) {
