@@ -18,6 +18,7 @@ namespace {
 
 constexpr char kBlanks[] = " \t\r\n";
 
+constexpr absl::string_view kPackedW = "w_per_kg", kMass = "mass_matrix", kJacobian = "jacobian";
 // The systems that state a W: by its upper triangle, or all entries of that of several contacts.
 constexpr absl::string_view kPlanar = "planar_contact", kSpatial = "spatial_contact", kSeveral = "contact_matrix";
 
@@ -28,7 +29,7 @@ struct Matrix {
 };
 
 // Names the first number of a matrix that no double holds.
-absl::Status CheckNumbers(const std::string& key, absl::string_view text) {
+absl::Status CheckNumbers(absl::string_view key, absl::string_view text) {
   for (const absl::string_view number : absl::StrSplit(text, absl::ByAnyChar("[], \t\r\n"), absl::SkipEmpty())) {
     const std::string rule = WhyNoDouble(number);
     if (!rule.empty()) return absl::InvalidArgumentError(absl::StrCat(key, " has ", number, ": must ", rule));
@@ -37,7 +38,7 @@ absl::Status CheckNumbers(const std::string& key, absl::string_view text) {
 }
 
 // Reads the value of the key that ends before `at`, if it is a list of lists of numbers.
-absl::StatusOr<std::optional<Matrix>> MatrixAt(const std::string& text, const std::string& key, size_t at) {
+absl::StatusOr<std::optional<Matrix>> MatrixAt(const std::string& text, absl::string_view key, size_t at) {
   Matrix matrix;
   const size_t colon = text.find_first_not_of(kBlanks, at);
   if (colon == std::string::npos || text[colon] != ':') return std::optional<Matrix>();
@@ -97,9 +98,9 @@ absl::string_view SystemBefore(const std::string& text, size_t at) {
 
 // The number of rates that the text states; nothing if it states none.
 std::optional<size_t> CountRates(const std::string& text) {
-  constexpr absl::string_view kRates = "\"rates\"";
-  for (size_t at = text.find(kRates); at != std::string::npos; at = text.find(kRates, at + 1)) {
-    const size_t begin = text.find_first_not_of(absl::StrCat(kBlanks, ":"), at + kRates.size());
+  const std::string rates = "\"rates\"";
+  for (size_t at = text.find(rates); at != std::string::npos; at = text.find(rates, at + 1)) {
+    const size_t begin = text.find_first_not_of(absl::StrCat(kBlanks, ":"), at + rates.size());
     const size_t end = text.find(']', at);
     if (begin == std::string::npos || text[begin] != '[' || end == std::string::npos) continue;
     const auto json = nlohmann::json::parse(text.begin() + static_cast<ptrdiff_t>(begin),
@@ -110,15 +111,15 @@ std::optional<size_t> CountRates(const std::string& text) {
 }
 
 // A matrix of a mechanism has a column for each rate: one that is written down transposed would be read as another.
-absl::Status CheckColumns(const std::string& text, const std::string& key, const Matrix& matrix) {
+absl::Status CheckColumns(const std::string& text, absl::string_view key, const Matrix& matrix) {
   const std::optional<size_t> rates = CountRates(text);
   const size_t columns = matrix.rows.front().size();
   if (!rates.has_value() || columns == *rates) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat("mechanism.", key, " has ", matrix.rows.size(), " rows of ", columns,
+  return absl::InvalidArgumentError(absl::StrCat("mechanism.", key, " has rows of ", columns,
                                                  " entries: must have rows of ", *rates, ", one for each of rates"));
 }
 
-absl::StatusOr<std::string> FlatText(const std::string& text, const std::string& key, size_t key_at,
+absl::StatusOr<std::string> FlatText(const std::string& text, absl::string_view key, size_t key_at,
                                      const Matrix& matrix) {
   std::vector<double> entries;
   for (const std::vector<double>& row : matrix.rows) {
@@ -128,11 +129,15 @@ absl::StatusOr<std::string> FlatText(const std::string& text, const std::string&
     }
     entries.insert(entries.end(), row.begin(), row.end());
   }
-  if (key != "w_per_kg") {
+  if (key != kPackedW) {
     if (absl::Status status = CheckColumns(text, key, matrix); !status.ok()) return status;
   }
   const absl::string_view system = SystemBefore(text, key_at);
-  if (key == "w_per_kg" && system != kSeveral) return PackedW(matrix, entries, system == kSpatial);
+  if (key == kPackedW && system == kSeveral && matrix.rows.size() != matrix.rows.front().size()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("w_per_kg is ", matrix.rows.size(), " x ", matrix.rows.front().size(), ": must be square"));
+  }
+  if (key == kPackedW && system != kSeveral) return PackedW(matrix, entries, system == kSpatial);
   return absl::StrCat("\"", key, "\": ", ListOf(entries));
 }
 
@@ -140,12 +145,17 @@ absl::StatusOr<std::string> FlatText(const std::string& text, const std::string&
 
 absl::StatusOr<std::string> WithFlatMatrices(const std::string& text) {
   std::string flat = text;
-  for (const char* const key : {"w_per_kg", "mass_matrix", "jacobian"}) {
+  for (const absl::string_view key : {kPackedW, kMass, kJacobian}) {
     const std::string quoted = absl::StrCat("\"", key, "\"");
     for (size_t at = flat.find(quoted); at != std::string::npos; at = flat.find(quoted, at + quoted.size())) {
       const absl::StatusOr<std::optional<Matrix>> found = MatrixAt(flat, key, at + quoted.size());
       if (!found.ok()) return found.status();
-      if (!found->has_value()) continue;
+      if (!found->has_value()) {
+        if (key == kPackedW && SystemBefore(flat, at) == kPlanar) {
+          return absl::InvalidArgumentError("planar_contact.w_per_kg: must be a 2 x 2 matrix, a list of its rows");
+        }
+        continue;
+      }
       const Matrix& matrix = **found;
       absl::StatusOr<std::string> entry = FlatText(flat, key, at, matrix);
       if (!entry.ok()) return entry.status();

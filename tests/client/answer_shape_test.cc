@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "ricochet/local_solver.h"
+#include "ricochet/solver.h"
 #include "tests/core/fit/fit_cases.h"
 #include "tests/support/scenes/multi_contact_scenes.h"
 

@@ -115,8 +115,16 @@ Rows ComplaintRows(const Grade& grade) {
   return rows;
 }
 
+// Answers may each state a law of their own.
+std::string LawsText(const Grade& grade) {
+  const bool differ = std::any_of(grade.cases.begin(), grade.cases.end(), [&grade](const CaseGrade& one) {
+    return one.answered && one.asked->HasOneContact() && one.law != grade.law;
+  });
+  return differ ? "the laws that the answers state" : LawText(grade.law);
+}
+
 std::string Heading(const Grade& grade) {
-  return absl::StrCat(grade.simulator, ": ", GradeVerdict(grade), ", by ", LawText(grade.law),
+  return absl::StrCat(grade.simulator, ": ", GradeVerdict(grade), ", by ", LawsText(grade),
                       grade.law_found ? ", which most answers obey" : "", ".\n");
 }
 

@@ -114,9 +114,35 @@ class MechanismTest(RicochetCase):
                 ("planar_contact", skew, "w_per_kg[1][0] = 1.4: must be equal to [0][1] = 1.5, as W is symmetric in the "
                                          "frame (t, n)"),
                 ("spatial_contact", skew, "w_per_kg has 4 entries: must be 3 x 3 in a spatial_contact"),
-                ("planar_contact", [[1, 2], [3]], "rows of 2 and of 1 entries")]:
+                ("planar_contact", [[1, 2], [3]], "rows of 2 and of 1 entries"),
+                ("planar_contact", [[1, 0, 0, 1]], "w_per_kg has 4 entries: must be 2 x 2 in a planar_contact"),
+                ("planar_contact", [1, 0, 0, 1], "planar_contact.w_per_kg: must be a 2 x 2 matrix, a list of its rows"),
+                ("spatial_contact", [[[1, 0, 0, 1, 0, 1]]], "spatial_contact.w_per_kg[0]: must not be a list")]:
             with self.subTest(words=words):
                 self.assertIn(words, self.refused(*self.contact("wrong.json", system, w)))
+
+    def test_a_matrix_of_another_shape_is_not_read_row_by_row(self):
+        right = {"mass_matrix": [[2, 0.3, 0], [0.3, 1, 0.1], [0, 0.1, 1]], "jacobian": [[1, 0, 0.5], [0, 1, 0.2]],
+                 "rates": [0.3, -1, 0]}
+        law = {"friction": {"kinetic_coefficient": 0.3}, "restitution": {"energetic": 0.5}}
+        for change, words in [
+                ({"jacobian": [[1, 0], [0, 1], [0.5, 0.2]]}, "mechanism.jacobian has rows of 2 entries: must have rows of 3"),
+                ({"jacobian": [[1, 0, 0.5, 0, 1, 0.2]]}, "mechanism.jacobian has rows of 6 entries: must have rows of 3"),
+                ({"mass_matrix": [[2, 0.3, 0, 0.3, 1, 0.1, 0, 0.1, 1]]}, "mechanism.mass_matrix has rows of 9 entries"),
+                ({"jacobian": [[[1, 0, 0.5]], [[0, 1, 0.2]]]}, "mechanism.jacobian[0]: must not be a list"),
+                ({"rates": [[0.3], [-1], [0]]}, "mechanism.rates[0]: must not be a list"),
+                ({"rates": [[[]]]}, "must not be a list")]:
+            with self.subTest(words=words):
+                (WORK / "shape.json").write_text(json.dumps({"mechanism": {**right, **change}, **law}))
+                self.assertIn(words, self.refused("solve", "--scene", "shape.json"))
+        (WORK / "shape.json").write_text(json.dumps({"mechanism": right, **law}))
+        (WORK / "flat.json").write_text(json.dumps({"mechanism": {**right, "jacobian": sum(right["jacobian"], [])}, **law}))
+        self.assertEqual(self.outcome("solve", "--scene", "shape.json"), self.outcome("solve", "--scene", "flat.json"))
+        (WORK / "deep.json").write_text('{"mechanism":{"mass_matrix":' + "[" * 200000 + "]" * 200000 + "}}")
+        self.assertIn("must not be a list", self.refused("solve", "--scene", "deep.json"))
+        (WORK / "skew.json").write_text(json.dumps(
+            {"contact_matrix": {"w_per_kg": [[1, 0, 0, 1]], "velocity_m_s": [0, -1]}, "contacts": [{"energetic": 0.5}]}))
+        self.assertIn("w_per_kg is 1 x 4: must be square", self.refused("multicontact", "--scene", "skew.json"))
 
 
 if __name__ == "__main__":
