@@ -83,6 +83,10 @@ class Writer {
                         row.reason.empty() ? "" : CsvQuoted(row.reason), "\n");
   }
 
+  const char* WhereAllAre() const {
+    return format_ == Format::kText ? "--list names all" : "the output says why each is invalid";
+  }
+
   std::string End(const Ending& ending) const {
     if (format_ == Format::kText && list_) return absl::StrCat("\n", AuditSummaryText(ending.summary));
     if (format_ == Format::kText) return SummaryText(ending);
@@ -131,7 +135,8 @@ class Auditor {
 
   absl::Status Finish() {
     if (named_ > kNamedRows) {
-      absl::StrAppend(&ending_.first_invalid, "  and ", named_ - kNamedRows, " more invalid rows; --list names all\n");
+      absl::StrAppend(&ending_.first_invalid, "  and ", named_ - kNamedRows, " more invalid rows; ",
+                      writer_.WhereAllAre(), "\n");
     }
     if (absl::Status status = output_.Write(writer_.End(ending_)); !status.ok()) return status;
     if (absl::Status status = output_.Commit(); !status.ok()) return status;

@@ -21,6 +21,7 @@
 #include "client/cli/program.h"
 #include "client/cli/terminal/exit_code.h"
 #include "client/cli/terminal/grpc_log.h"
+#include "client/cli/terminal/interrupt.h"
 #include "client/cli/text/usage_error.h"
 
 namespace {
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
   // Ignoring these signals turns a closed pipe and a full quota into errors of write; temporary files are then removed.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  ricochet::cli::Interrupt::EndAtSignals();
   ricochet::cli::Command command;
   const std::unique_ptr<CLI::App> app = ricochet::cli::MakeProgram({argv, argv + argc}, command);
   std::vector<std::string> words = ricochet::cli::WithHelpAsFlag({argv + 1, argv + argc});

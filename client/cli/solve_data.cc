@@ -5,9 +5,13 @@
 #include <limits>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/input/short_name.h"
 #include "client/cli/io/csv_table.h"
@@ -19,6 +23,7 @@
 #include "core/rows/column.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/engine.h"
+#include "ricochet/error.h"
 
 namespace ricochet::cli {
 namespace {
@@ -68,6 +73,20 @@ void NameBadCells(const std::vector<BadCells>& cells, BatchSummary& summary) {
   }
 }
 
+// Names the columns of the file in place of the fields of the request. `columns` are their places in the file.
+absl::Status NameColumns(const absl::Status& error, const std::vector<size_t>& columns) {
+  std::vector<Violation> violations = ViolationsOf(error);
+  for (Violation& violation : violations) {
+    absl::string_view place = violation.field;
+    size_t field = 0;
+    if (!absl::ConsumePrefix(&place, "fields[") || !absl::ConsumeSuffix(&place, "]")) continue;
+    if (!absl::SimpleAtoi(place, &field) || field >= columns.size()) continue;
+    violation.field = absl::StrCat("--data, column ", columns[field] + 1);
+    absl::StrAppend(&violation.description, "; --skip-column leaves a column out");
+  }
+  return violations.empty() ? error : InvalidRequest(violations);
+}
+
 absl::Status Solve(CsvReader& reader, const Solver& solver, Solved& solved) {
   const CsvTable table = reader.Next(std::numeric_limits<size_t>::max());
   const size_t count = table.lines.size();
@@ -76,14 +95,16 @@ absl::Status Solve(CsvReader& reader, const Solver& solver, Solved& solved) {
   solved.regimes.resize(count);
   solved.statuses.resize(count);
   BatchRows rows = {.regimes = absl::MakeSpan(solved.regimes), .statuses = absl::MakeSpan(solved.statuses)};
+  std::vector<size_t> columns;
   for (size_t i = 0; i < table.columns.size(); ++i) {
     if (reader.IsSkipped(i)) continue;
+    columns.push_back(i);
     solved.setup.fields.push_back(table.header[i]);
     rows.inputs.emplace_back(table.columns[i]);
   }
   for (std::vector<double>& column : solved.outputs) rows.outputs.push_back(absl::MakeSpan(column));
   absl::StatusOr<BatchResponse> response = solver.SolveBatch(solved.setup, rows);
-  if (!response.ok()) return response.status();
+  if (!response.ok()) return NameColumns(response.status(), columns);
   solved.response = *std::move(response);
   NameBadCells(table.bad, solved.response.summary);
   return absl::OkStatus();

@@ -311,7 +311,10 @@ class Motion {
   bool IsStill() const {
     bool presses = false;
     for (int i = 0; i < k_; ++i) {
-      if (!IsClosed(i)) continue;
+      if (!IsClosed(i)) {
+        if (Normal(i) < -noise_(2 * i + 1)) return false;  // Its gap will close.
+        continue;
+      }
       presses = true;
       if (flow_->velocity(2 * i + 1).Lead() <= kSeriesOrder || flow_->velocity(2 * i).Lead() == 1) return false;
     }

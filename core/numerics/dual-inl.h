@@ -91,6 +91,12 @@ template <typename N>
 HWY_INLINE auto IsPositive(const Dual<N>& x) {
   return IsPositive(Leading(x));
 }
+// True if the value is negative, and does not only count as 0 beside a negative rate.
+template <typename N>
+HWY_INLINE auto IsNegativeItself(const Dual<N>& x) {
+  const N change = Select(IsNegative(x.rate), -x.rate, x.rate);
+  return IsNegative(x.value + N::Constant(0x1p-50) * change);
+}
 template <typename N>
 HWY_INLINE auto operator<(const Dual<N>& x, const Dual<N>& y) {
   return IsNegative(x - y);

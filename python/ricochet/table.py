@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, overload
 
 import numpy as np
 
@@ -31,7 +31,13 @@ class Codes:
     def __len__(self) -> int:
         return len(self.numbers)
 
-    def __getitem__(self, row: int) -> str:
+    @overload
+    def __getitem__(self, row: int) -> str: ...
+    @overload
+    def __getitem__(self, row: slice) -> list[str]: ...
+    def __getitem__(self, row: int | slice) -> str | list[str]:
+        if isinstance(row, slice):
+            return [self.names[number] for number in self.numbers[row]]
         return self.names[int(self.numbers[row])]
 
     def counts(self) -> dict[str, int]:
@@ -71,6 +77,16 @@ class Table:
     def __getitem__(self, name: str) -> Numbers:
         meant = meanings(name, self.columns)
         return self.columns[meant[0] if len(meant) == 1 else name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and bool(name in self.columns or len(meanings(name, self.columns)) == 1)
+
+    def keys(self) -> Iterable[str]:
+        """Returns the names of the columns."""
+        return self.columns.keys()
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{name} {count}" for codes in self.codes.values() for name, count in codes.counts().items())

@@ -345,6 +345,10 @@ class BrokenSweeps(unittest.TestCase):
         self.assertGreater(len(self.service.calls), 1)
         self.assertEqual(self.service.calls, sorted(self.service.calls))
         self.assertEqual(table.codes["status"].counts(), {"OK": self.COUNT})
+        self.assertEqual(table.codes["status"][:2], ["OK", "OK"])
+        self.assertEqual(list(table), list(table.keys()))
+        self.assertEqual(list(table), list(table.columns))
+        self.assertEqual([name in table for name in (list(table)[0], "no such name", 0)], [True, False, False])
 
     def test_points_of_two_engines_are_not_joined(self):
         with self.assertRaisesRegex(ricochet.RicochetError, "come from the engine .*two.*, those before from .*one"):

@@ -47,20 +47,36 @@ std::string ReadCell(const std::string& cell, CellKind kind, double& value) {
 }  // namespace
 
 bool CsvReader::NextLine() {
-  while (std::getline(*stream_, line_)) {
-    bytes_ += static_cast<int64_t>(line_.size()) + 1;
-    if (++number_ == 1 && absl::StartsWith(line_, kByteOrderMark)) line_.erase(0, sizeof(kByteOrderMark) - 1);
+  std::string more;
+  while (ReadLine(line_)) {
+    if (lines_read_ == 1 && absl::StartsWith(line_, kByteOrderMark)) line_.erase(0, sizeof(kByteOrderMark) - 1);
     absl::StripAsciiWhitespace(&line_);
-    if (!line_.empty() && line_[0] != '#') return true;
+    if (line_.empty() || line_[0] == '#') continue;
+    number_ = lines_read_;
+    // A line may end within a cell in quotes.
+    const auto is_open = [](const std::string& text) { return std::count(text.begin(), text.end(), '"') % 2 != 0; };
+    for (ends_in_quotes_ = is_open(line_); ends_in_quotes_ && ReadLine(more); ends_in_quotes_ ^= is_open(more)) {
+      absl::StrAppend(&line_, "\n", more);
+    }
+    return true;
   }
   return false;
+}
+
+bool CsvReader::ReadLine(std::string& line) {
+  if (!std::getline(*stream_, line)) return false;
+  bytes_ += static_cast<int64_t>(line.size()) + 1;
+  ++lines_read_;
+  return true;
 }
 
 void CsvReader::Append(const std::vector<std::string>& cells, CsvTable& table) const {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   BadCells bad{.row = table.columns.front().size(), .column = {}, .description = {}};
-  const bool fits = cells.size() <= header_.size();
-  if (!fits) {
+  const bool fits = cells.size() <= header_.size() && !ends_in_quotes_;
+  if (ends_in_quotes_) {
+    bad.description = kOpenQuotes;
+  } else if (!fits) {
     bad.description = absl::StrCat("has ", cells.size(), " cells: must have ", header_.size(),
                                    "; a number has a decimal point, not a comma");
   }

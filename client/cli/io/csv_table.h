@@ -27,6 +27,8 @@ struct BadCells {
   std::string Reason() const { return column.empty() ? description : column + " " + description; }
 };
 
+inline constexpr char kOpenQuotes[] = "begins a cell in quotes that does not end: must have a quote at its end";
+
 // Says how the cells of a column are read.
 enum class CellKind { kNumber, kAngle, kSkipped };
 
@@ -38,7 +40,7 @@ struct CsvTable {
 };
 
 // Reads a table part by part, so that a long one takes little memory. Columns are separated by commas. A cell may stand
-// in double quotes, and may then have commas. A cell that is missing or not a number becomes a NaN, and so do all cells
+// in double quotes, and may then have commas and line ends. A cell that is missing or not a number becomes a NaN, and so do all cells
 // of a row with more cells than the header. Empty lines, lines that start with # and a byte order mark are skipped.
 class CsvReader {
  public:
@@ -58,8 +60,10 @@ class CsvReader {
   CsvTable Next(size_t most);
   // Reads the cells of the next row as text. Returns false at the end.
   bool NextRow(std::vector<std::string>& cells);
-  // The line of the last row in the text, from 1.
+  // The line of the text in which the last row begins, from 1.
   int64_t line() const { return number_; }
+  // True if the text ended within a cell of the last row, so that other rows may be lost in it.
+  bool ends_in_quotes() const { return ends_in_quotes_; }
   // The bytes read so far.
   int64_t bytes() const { return bytes_; }
 
@@ -67,6 +71,7 @@ class CsvReader {
   CsvReader(std::istream& stream, std::string name) : stream_(&stream), name_(std::move(name)) {}
   // Reads up to the next line that is not skipped. Returns false at the end.
   bool NextLine();
+  bool ReadLine(std::string& line);
   // Appends a row to the table.
   void Append(const std::vector<std::string>& cells, CsvTable& table) const;
 
@@ -75,7 +80,9 @@ class CsvReader {
   std::vector<std::string> header_;
   std::vector<CellKind> kinds_;  // One for each name of the header.
   std::string line_;
-  int64_t number_ = 0;  // The number of line_.
+  int64_t number_ = 0;  // The number of line_, or of its first part.
+  int64_t lines_read_ = 0;
+  bool ends_in_quotes_ = false;
   int64_t bytes_ = 0;
 };
 

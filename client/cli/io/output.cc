@@ -1,10 +1,14 @@
 #include "client/cli/io/output.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -19,7 +23,19 @@ namespace {
 
 constexpr char kReaderGoneUrl[] = "ricochet/reader_gone";
 
+std::atomic<bool (*)()> is_stopped = nullptr;
+
 absl::Status SystemError(const std::string& what) { return absl::ErrnoToStatus(errno, what); }
+
+// Waits until a write of PIPE_BUF bytes cannot block. Returns false if the run is stopped meanwhile.
+bool WaitForRoom(int descriptor) {
+  constexpr int kBetweenLooksMs = 50;
+  pollfd ready = {.fd = descriptor, .events = POLLOUT, .revents = 0};
+  while (poll(&ready, 1, kBetweenLooksMs) == 0) {
+    if (bool (*const stopped)() = is_stopped; stopped != nullptr && stopped()) return false;
+  }
+  return true;
+}
 
 // The mode of the file that is replaced, or that of a new one.
 mode_t ModeFor(const std::string& path) {
@@ -34,9 +50,15 @@ mode_t ModeFor(const std::string& path) {
 
 bool IsStandardOutput(const std::string& path) { return path.empty() || path == "-" || path == "/dev/stdout"; }
 
+void StopWritingWhen(bool (*stopped)()) { is_stopped = stopped; }
+
 absl::Status WriteAll(int descriptor, std::string_view text) {
+  struct stat info;
+  const bool may_block = fstat(descriptor, &info) == 0 && !S_ISREG(info.st_mode);
   while (!text.empty()) {
-    const ssize_t count = write(descriptor, text.data(), text.size());
+    if (may_block && !WaitForRoom(descriptor)) return absl::CancelledError("interrupted");
+    const ssize_t count =
+        write(descriptor, text.data(), may_block ? std::min<size_t>(text.size(), PIPE_BUF) : text.size());
     if (count >= 0) {
       text.remove_prefix(static_cast<size_t>(count));
     } else if (errno == EPIPE) {

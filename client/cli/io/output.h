@@ -15,6 +15,9 @@ namespace ricochet::cli {
 // True for "-", for nothing, and for the name that Linux gives standard output.
 bool IsStandardOutput(const std::string& path);
 
+// Makes WriteAll give up, with CANCELLED, where the reader of a pipe stands still and `stopped()` is true.
+void StopWritingWhen(bool (*stopped)());
+
 // Writes all of `text`. Errors: one for which IsReaderGone holds if the reader has closed a pipe; else those of the
 // system.
 absl::Status WriteAll(int descriptor, std::string_view text);

@@ -141,9 +141,12 @@ CsvRow AuditCsvRow(const AuditReport& report, size_t directions) {
   const auto numbers = [&](const char* name, const std::array<double, 2>& values) {
     for (size_t i = 0; i < directions; ++i) number(absl::StrCat(name, "[", i, "]"), values[i]);
   };
-  row.Truth("admissible", report.admissible);
+  const auto truth = [&](const std::string& name, bool value) {
+    report.regime == Regime::kInvalid ? row.Number(name, kNone) : row.Truth(name, value);
+  };
+  truth("admissible", report.admissible);
   row.Words("regime", RegimeName(report.regime));
-  row.Truth("unexplained", report.unexplained);
+  truth("unexplained", report.unexplained);
   number("distance_m_s", report.distance);
   number("coefficients.newton", report.newton);
   number("coefficients.poisson", report.poisson);
@@ -155,7 +158,7 @@ CsvRow AuditCsvRow(const AuditReport& report, size_t directions) {
   number("energy_change_j", report.energy_change);
   for (const LimitName& name : kLimits) {
     const LimitCheck& check = report[name.limit];
-    row.Truth(absl::StrCat("limits.", name.column, ".broken"), check.verdict == Verdict::kBroken);
+    truth(absl::StrCat("limits.", name.column, ".broken"), check.verdict == Verdict::kBroken);
     number(absl::StrCat("limits.", name.column, ".excess"), check.excess);
     number(absl::StrCat("limits.", name.column, ".allowance"), check.allowance);
   }

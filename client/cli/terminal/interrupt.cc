@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 
+#include "client/cli/io/output.h"
 #include "client/cli/terminal/progress.h"
 
 namespace ricochet::cli {
@@ -31,7 +32,21 @@ bool Interrupt::Happened() { return happened; }
 
 void Interrupt::Wait() { happened.wait(false); }
 
+void Interrupt::EndAtSignals() {
+  const auto end = [](int /*signal*/) {
+    constexpr char kText[] = "ricochet: interrupted\n";
+    // Nothing can be done if nobody hears it.
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof(kText) - 1);
+    _exit(kInterruptedExitCode);
+  };
+  for (const int number : {SIGINT, SIGTERM}) {
+    // A shell ignores Ctrl-C for a program that it starts in the background.
+    if (std::signal(number, end) == SIG_IGN) std::signal(number, SIG_IGN);
+  }
+}
+
 Interrupt::Interrupt() {
+  StopWritingWhen(&Interrupt::Happened);
   const sigset_t signals = Watched();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   watcher_ = std::jthread([source = source_, signals](const std::stop_token& done) mutable {

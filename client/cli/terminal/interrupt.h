@@ -23,6 +23,9 @@ class Interrupt {
   // Waits until a signal has come.
   static void Wait();
 
+  // Makes both signals end the program at once with kInterruptedExitCode, until an object of this class is made.
+  static void EndAtSignals();
+
  private:
   std::stop_source source_;
   std::jthread watcher_;

@@ -93,8 +93,9 @@ std::string ValueError(const CLI::App& app, const std::vector<std::string>& word
     if (equals + 1 == word.size()) return absl::StrCat(word, ": must have a value");
     const bool takes_next = equals == std::string::npos && option->get_items_expected_min() > 0;
     if (!takes_next || ++i == words.size()) continue;
-    // The empty name of a service is that of the whole server.
-    if (words[i].empty() && !option->check_name("--service")) return absl::StrCat(word, ": must have a value");
+    // The empty name of a service is that of the whole server, and a column of a table may have none.
+    const bool may_be_empty = option->check_name("--service") || option->check_name("--skip-column");
+    if (words[i].empty() && !may_be_empty) return absl::StrCat(word, ": must have a value");
     if (!absl::StartsWith(words[i], "--") || OptionOf(*at, words[i]) == nullptr) continue;
     return absl::StrCat(word, ": must have a value, before the option ", words[i]);
   }

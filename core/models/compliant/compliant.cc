@@ -124,7 +124,7 @@ void WriteMotion(const PlanarProblem& problem, const Units& units, const PathRes
   impact.tau1 = units.Impulse(end.tau);
   impact.f_compression = units.Impulse(compression.f) + 0.0;
   impact.f1 = units.Impulse(end.f) + 0.0;
-  impact.tangential = end.f / end.tau + 0.0;
+  impact.tangential = end.tau > 0.0 ? end.f / end.tau + 0.0 : 0.0;
   impact.energetic_excess = -1.0;
   if (!path.Ends() || problem.coefficient == 0.0) return;
   impact.newton = -end.v / problem.v0;

@@ -33,6 +33,8 @@ void WriteCoefficients(double coefficient, const ScaledContact& contact, const P
   impact.tangential = path.end[kNormal] > 0.0 ? path.end[kTangential] / path.end[kNormal] : 0.0;
   if (path.how == PathEnd::kHeld || contact.eta == 0.0) return;
   impact.newton = path.end[kV];
+  // Under forces that press far harder than the approach, compression may round to nothing.
+  if (path.compression[kNormal] == 0.0) return;
   impact.poisson = (path.end[kNormal] - path.compression[kNormal]) / path.compression[kNormal];
   if (!contact.damped) {
     impact.energetic = coefficient;
@@ -69,7 +71,9 @@ void WriteWorks(const ScaledContact& contact, const Path& path, Impact& impact) 
   impact.energy_change = unit * (by_velocity + by_force);
   impact.friction_dissipation =
       unit * (contact.IsStraight() ? 0.0 - (compression.tangential + restitution.tangential) : end[kFrictionLoss]);
-  impact.spring_energy = unit * 0.5 * (contact.ratio_squared / contact.stiffness) * Square(path.spring_force);
+  // Without a tangential spring, a scaled stiffness of 0 would make NaN of 0.
+  const double compliance = contact.ratio_squared == 0.0 ? 0.0 : contact.ratio_squared / contact.stiffness;
+  impact.spring_energy = unit * 0.5 * compliance * Square(path.spring_force);
 }
 
 // Among the ends of compression only the last is reported.

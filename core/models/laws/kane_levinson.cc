@@ -1,10 +1,10 @@
 #include "core/models/laws/kane_levinson.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/models/laws/impact_law_parts.h"
+#include "core/numerics/wide.h"
 
 namespace ricochet::laws {
 namespace {
@@ -32,6 +32,18 @@ ImpactLawResult SolveRankOne(const PlanarProblem& input, const NewtonImpact& imp
   return result;
 }
 
+// True if the impulse that ends without slip lies beyond the cone, s G > mu T. Near the cone both sides cancel, and slip
+// that is small beside u0 may still be far above a rounding error.
+bool SlipsAtEnd(const PlanarProblem& input, double e, double s) {
+  const auto exactly = [](double x) { return Wide::Exactly(x); };
+  const Wide along = exactly(s);
+  const Wide mu = exactly(input.mu);
+  const Wide u_part = along * exactly(input.w.nn) - mu * exactly(input.w.tn);
+  const Wide c_part = along * exactly(input.w.tn) - mu * exactly(input.w.tt);
+  const Wide c = -(exactly(input.v0) + exactly(e) * exactly(input.v0));
+  return IsPositive(exactly(input.u0) * u_part + c * c_part);
+}
+
 }  // namespace
 
 ImpactLawResult SolveKaneLevinson(const PlanarProblem& input, double e) {
@@ -40,13 +52,15 @@ ImpactLawResult SolveKaneLevinson(const PlanarProblem& input, double e) {
   if (impact.rank_one()) return SolveRankOne(input, impact);
 
   ImpactLawResult result;
-  const double g = impact.tangential_numerator();
-  const double cone = input.mu * impact.normal_numerator();
-  if (std::abs(g) <= cone) {
-    result.solutions.push_back(impact.Solution(-g / impact.det(), impact.normal_numerator() / impact.det(), 0.0));
-  }
+  bool sticks = true;
   for (const double s : {1.0, -1.0}) {
-    if (s * g > cone) AppendAtRatio(impact, -input.mu * s, result);
+    if (!SlipsAtEnd(input, e, s)) continue;
+    sticks = false;
+    AppendAtRatio(impact, -input.mu * s, result);
+  }
+  if (sticks) {
+    result.solutions.push_back(
+        impact.Solution(-impact.tangential_numerator() / impact.det(), impact.normal_numerator() / impact.det(), 0.0));
   }
   return result;
 }

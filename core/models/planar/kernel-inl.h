@@ -201,13 +201,20 @@ HWY_INLINE Slopes<N> SlopesAfterStop(const Inputs<N>& in, const MaskOf<N>& stick
   return SelectSlopes(sticks, {.u = Zero<N>(), .v = in.det * inverse, .f = -in.wtn * inverse}, slopes);
 }
 
+// A number type that also carries changes has one of its own, which is false where only the change is negative: slip
+// that slows down by the change alone stops at infinity, long after the end.
+template <typename N>
+HWY_INLINE MaskOf<N> IsNegativeItself(const N& x) {
+  return IsNegative(x);
+}
+
 template <typename N>
 HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
   Path<N> path;
   const MaskOf<N> backwards = IsNegative(in.u0);
   path.slips_first = Either(IsPositive(in.u0), backwards);
   path.first = SlipSlopes(in, backwards);
-  path.stops = Either(Not(path.slips_first), IsNegative(Signed(path.first.u, backwards)));
+  path.stops = Either(Not(path.slips_first), IsNegativeItself(Signed(path.first.u, backwards)));
   path.v_stop = in.v0;
   path.u_compression_end = Zero<N>();
   const N d = DifferenceOfProducts(in.v0, path.first.u, in.u0, path.first.v);

@@ -11,6 +11,7 @@
 namespace ricochet::cli {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -128,6 +129,35 @@ TEST_F(CliSolveData, ASkippedColumnMayHoldAnything) {
   const CliResult all = Solve("id,mu\n\"a, b\",0.1\n7,0.2\n", {"--skip-column", "id", "--format", "csv"});
   EXPECT_EQ(all.exit_code, 0) << all.err;
   EXPECT_EQ(all.out, Solve("mu\n0.1\n0.2\n", {"--format", "csv"}).out);
+}
+
+TEST_F(CliSolveData, ACellInQuotesMayHaveLineEnds) {
+  const Arguments csv = {"--skip-column", "note", "--format", "csv"};
+  const CliResult result = Solve("mu,note\n0.1,\"a\n0.5\nb\"\n0.2,c\n", csv);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, Solve("mu\n0.1\n0.2\n", {"--format", "csv"}).out);
+  EXPECT_THAT(Solve("mu,note\n0.1,\"a\n0.5\nb\"\n-1,c\n", {"--skip-column", "note"}).out, HasSubstr("row 1 (line 5)"));
+  EXPECT_THAT(Solve("mu,note\n0.1,\"a\n0.2,c\n", {"--skip-column", "note"}).out,
+              HasSubstr("row 0 (line 2): begins a cell in quotes that does not end"));
+}
+
+// pandas writes the index of a frame so.
+TEST_F(CliSolveData, AColumnWithoutANameCanBeSkipped) {
+  const CliResult result = Solve(",mu\n0,0.1\n1,0.2\n", {"--skip-column", "", "--format", "csv"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, Solve("mu\n0.1\n0.2\n", {"--format", "csv"}).out);
+}
+
+TEST_F(CliSolveData, AnUnknownColumnIsNamedByItsPlace) {
+  EXPECT_THAT(Solve("mu,note,id\n0.1,1,2\n", {"--skip-column", "note"}).err,
+              AllOf(HasSubstr("--data, column 3 = \"id\": must be a field of the scene"),
+                    HasSubstr("--skip-column leaves a column out")));
+}
+
+TEST_F(CliSolveData, AnInvalidRowOfAnAuditHasNoVerdicts) {
+  const CliResult result = Audit("tangential_after_m_s,normal_after_m_s\nx,0.5\n", {"--format", "csv"});
+  EXPECT_THAT(result.out, HasSubstr("\n0,nan,INVALID,nan,"));
+  EXPECT_THAT(result.out, Not(HasSubstr("false")));
 }
 
 TEST_F(CliSolveData, StrictFailsAfterWritingEverything) {

@@ -4,18 +4,27 @@ usage: terminal_test.py RICOCHET WORK_DIRECTORY
 """
 import fcntl
 import os
+import pathlib
 import pty
 import re
 import signal
 import struct
 import subprocess
 import termios
+import time
 import unittest
 
 from ricochet_case import RICOCHET, RicochetCase, WORK
 
 SWEEP = ["sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--column", "coefficients.newton", "--threads", "1"]
 AXIS = "friction.kinetic_coefficient=lin:-0.01:0.4:"
+
+
+def watches(pid, number):
+    """True once the process has a handler for the signal, or waits for it with the signal blocked."""
+    status = pathlib.Path(f"/proc/{pid}/status").read_text()
+    masks = [int(mask, 16) for mask in re.findall(r"^Sig(?:Cgt|Blk):\s*([0-9a-f]+)", status, re.MULTILINE)]
+    return any(mask >> (number - 1) & 1 for mask in masks)
 
 
 class Screen:
@@ -94,6 +103,23 @@ class Terminal(RicochetCase):
     def test_rows_on_the_terminal_have_no_bars_between_them(self):
         code, screen = self.run_on(100, [*SWEEP, "--axis", AXIS + "2e5", "--format", "csv"], stdout=None)
         self.assertEqual((code, screen.bars), (0, 0))
+
+    def test_signals_end_every_command_with_130(self):
+        far = [*SWEEP, "--axis", AXIS + "1e9", "--format", "csv"]  # Nobody reads what it writes.
+        for arguments, number in [(["solve", "--scene", "-"], signal.SIGINT), (["solve", "--scene", "-"], signal.SIGTERM),
+                                  (far, signal.SIGINT), (far, signal.SIGTERM)]:
+            with self.subTest(command=arguments[0], signal=number):
+                process = subprocess.Popen([RICOCHET, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE,
+                                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+                if arguments is far:
+                    process.stdout.read(1)
+                while not watches(process.pid, number):
+                    time.sleep(0.01)
+                process.send_signal(number)
+                self.assertEqual(process.wait(timeout=60), 130)
+                for stream in (process.stdin, process.stdout, process.stderr):
+                    stream.close()
 
 
 if __name__ == "__main__":

@@ -533,6 +533,22 @@ TEST(DerivativesTest, ContactThatJustApproachesHasBothVelocitiesButNoCoefficient
   EXPECT_EQ(coefficient.from_above, 0.0);
 }
 
+// mu Wtt = |Wtn| keeps u where it is, and beside it slip would stop only after an impulse without end: nothing jumps.
+// u1 = u0 + (Wtn - mu Wtt) tau with tau = (1 + e) |v0|/(Wnn - mu Wtn) = 1.
+TEST(DerivativesTest, SlipThatStopsAtInfinityIsNoThreshold) {
+  const Scene scene = {.system = PlanarContact{2.0, 1.0, 2.0, 1.0, -1.0},
+                       .friction = {.kinetic_coefficient = 0.5},
+                       .restitution = NewtonCoefficient{0.5}};
+  const char* const slip = "contact_velocity_after.tangential_m_s[0]";
+  for (const auto& [by, expected] : {std::pair("friction.kinetic_coefficient", -2.0),
+                                     {"planar_contact.w_tn_per_kg", 1.0},
+                                     {"planar_contact.w_tt_per_kg", -0.5}}) {
+    const Derivative d = Only(scene, slip, by);
+    EXPECT_EQ(d.kind, DerivativeKind::kTwoSided) << by;
+    EXPECT_NEAR(d.value.value_or(0.0), expected, 1e-14) << by;
+  }
+}
+
 TEST(DerivativesTest, WOfRankOneHasNoDerivativeByItsEntries) {
   Scene scene = With(PlanarContact{1.0, 0.5, 0.25, -2.0, -1.0});
   scene.friction.kinetic_coefficient = 0.125;

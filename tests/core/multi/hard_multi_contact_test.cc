@@ -35,6 +35,20 @@ Problem Slot(double e1, double e2) {
   return slot;
 }
 
+// A slider locks itself while a ball goes on between two walls that it is not coupled to.
+TEST(HardMultiContactTest, AContactThatJamsEndsNothingElsewhere) {
+  Problem scene = {.d = 2, .k = 3, .w = Eigen::MatrixXd::Zero(6, 6), .v = Vector::Zero(6)};
+  scene.laws = {{.mu = 2.0, .e = 0.5, .stiffness = 100.0}, {.e = 0.5}, {.e = 0.5}};
+  scene.w.topLeftCorner(2, 2) << 1.0, -1.0, -1.0, 1.0;
+  scene.w(3, 3) = scene.w(5, 5) = 1.0;
+  scene.w(3, 5) = scene.w(5, 3) = -1.0;
+  scene.v << 1.0, -1.0, 0.0, -1.0, 0.0, 1.0;
+  const Attained springs = FindSprings(scene, std::nullopt, kNever);
+  EXPECT_NE(springs.end, MultiContactEnd::kWedged);
+  EXPECT_NEAR(springs.v(3), 0.0, 1e-4);
+  EXPECT_NEAR(springs.v(5), 0.0, 1e-4);
+}
+
 // Each two impacts multiply the speed by e1 e2, so that the impulses are geometric sums.
 TEST(HardMultiContactTest, ABallInASlotComesToRest) {
   const Problem slot = Slot(0.5, 0.8);

@@ -128,6 +128,14 @@ TEST_F(CompliantIdentityTest, TangentialWorkIsWhatFrictionAndTheSpringTake) {
   }
 }
 
+// A velocity beside the range of W, on a contact that sticks at once: no impulse is reached, and no ratio of impulses.
+TEST(CompliantTest, AnImpactThatIsWedgedAtOnceHasNoTangentialCoefficient) {
+  const Impact impact = Solve(
+      {.contact = {.w = {1.0, 1.0, 1.0}, .u0 = 0.0, .v0 = -1.0, .mu = 2.0, .coefficient = 1.0}, .ratio_squared = 1.0});
+  EXPECT_EQ(impact.regime, Regime::kWedged);
+  EXPECT_EQ(impact.tangential, 0.0);
+}
+
 // The steeper the cone, the less of N is left where the particle breaks away, and the more of rounding in it.
 TEST_F(CompliantIdentityTest, TheLedgerClosesAtTheTipOfASteepCone) {
   for (const double wtt : {4.0, 5.0}) {

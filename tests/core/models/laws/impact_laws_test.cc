@@ -57,6 +57,19 @@ TEST(KaneLevinsonTest, SlantedRodSticksByHandAndGainsEnergy) {
              {.f = -1.0 / 8, .tau1 = 7.0 / 8, .u1 = 0.0, .v1 = 1.0, .energy_change = 1.0 / 16});
 }
 
+// Wtn - mu Wtt is 1.46e-16 Wtn > 0 (exact rational arithmetic), where the rounded product mu Wtt equals Wtn.
+TEST(KaneLevinsonTest, SlipsWhereFrictionFallsShortByLessThanRounding) {
+  const ImpactLawResult got = SolveKaneLevinson({.w = {0.987765508032018, 1.6065211492554237, 2.6128774309476523},
+                                                 .u0 = 0.0,
+                                                 .v0 = -0.3226154719687275,
+                                                 .mu = 1.6264195663768295},
+                                                1.0);
+  ASSERT_EQ(got.solutions.size(), 1u);
+  EXPECT_NEAR(got.solutions[0].u1, 3.430536e-4, 1e-10);
+  EXPECT_NEAR(got.solutions[0].tau1, 1.465055575e12, 1e3);
+  EXPECT_NEAR(got.solutions[0].f, -2.382795054e12, 1e3);
+}
+
 // mu = .1: G = .5 > .1 T = .35, slip towards +t: tau1 = 2/(2.5 - .15) = 40/47, f = -4/47,
 // u1 = -1 + (1.5 - .25) 40/47 = 3/47, dE = (-4/47)(-44/47)/2 = 88/2209.
 TEST(KaneLevinsonTest, SlantedRodSlipsByHand) {
