@@ -79,6 +79,18 @@ const CLI::Option* OptionOf(const CLI::App& app, const std::string& word) {
   return absl::StartsWith(word, "-") ? app.get_option_no_throw(word.substr(0, word.find('='))) : nullptr;
 }
 
+// Returns in words what CLI11 says of an option without its value, or of one that is given more than once.
+std::string ValuesInWords(const std::string& what) {
+  const std::string missing = ": 1 required ";
+  if (const size_t at = what.find(missing); at != std::string::npos && absl::EndsWith(what, " missing")) {
+    return absl::StrCat(what.substr(0, at), ": must have a value");
+  }
+  const std::string more = ": At Most 1 required but received ";
+  const size_t at = what.find(more);
+  if (at == std::string::npos) return what;
+  return absl::StrCat(what.substr(0, at), ": is given ", what.substr(at + more.size()), " times: must be given once");
+}
+
 }  // namespace
 
 std::string ValueError(const CLI::App& app, const std::vector<std::string>& words) {
@@ -112,7 +124,7 @@ std::string UsageError(const CLI::App& app, const CLI::ParseError& error) {
   const bool lacks_subcommand = !chosen.get_subcommands({}).empty();
   const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
   if (extras.empty() || (!lacks_subcommand && !is_extra)) {
-    return lacks_subcommand && extras.empty() ? NoSubcommand(chosen) : error.what();
+    return lacks_subcommand && extras.empty() ? NoSubcommand(chosen) : ValuesInWords(error.what());
   }
   const std::string& word = extras.front();
   return lacks_subcommand && !absl::StartsWith(word, "-") ? NoSuchSubcommand(chosen, word)
