@@ -110,7 +110,6 @@ std::string WhyNotAs(const std::string& path, const std::string& text, google::p
 }  // namespace
 
 std::string WhyNoMessage(const std::string& path, const std::string& text, google::protobuf::Message& message) {
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return "is empty";
   std::string wrong = WhyNotAs(path, text, message);
   if (wrong.empty()) return "";
   v1::Scene one;

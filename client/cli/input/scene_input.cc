@@ -239,6 +239,8 @@ absl::StatusOr<std::string> ReadText(const std::string& path) {
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message) {
   const absl::StatusOr<std::string> text = ReadText(path);
   if (!text.ok()) return text.status();
+  // A file may be empty on purpose; a pipe is so if the program before it failed.
+  if (path == "-" && text->empty()) return absl::InvalidArgumentError("standard input is empty");
   return ParseMessage(path, *text, message);
 }
 

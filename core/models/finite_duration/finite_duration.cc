@@ -241,8 +241,6 @@ Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped) {
   StopCheck stop(stopped);
   EstimatedPath found = FollowWithin(contact, integrator, problem.tolerance, stop);
   if (stop.WasStopped()) return Stopped();
-  // An end that nothing bounds is lost in rounding: the path may have missed the true one.
-  if (!std::isfinite(found.error) && found.path.HasEnd()) found.path.how = PathEnd::kNeverEnds;
   Impact impact = MakeImpact(problem, contact, found.path);
   if (problem.intervals > 0) {
     HistoryRecorder history(contact, integrator, problem.intervals, found.path.end[kTime]);

@@ -79,7 +79,7 @@ class ArraysTest(RicochetCase):
             data.createDimension("y", 2**40)
             data.createVariable("y", "f8", ("y",), chunksizes=(1024,))
             data.createVariable("number", "f8", ("x", "y"), chunksizes=(1, 1024))
-        self.assertIn("points", self.refused("plot", "broken.nc", "-o", "broken.svg"))
+        self.assertIn("points", self.refused("plot", "broken.nc", "-o", "broken.svg", code=42))
 
     def test_a_zip_and_a_part_of_a_grid_are_lists_of_points(self):
         for name, sweep in {"zip.nc": ZIP, "part.nc": [*GRID, "--range", "11:31"]}.items():

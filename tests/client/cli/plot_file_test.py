@@ -59,7 +59,9 @@ class PlotFileTest(RicochetCase):
         self.made(*SWEEPS["line"], "-o", "line.csv")
         lines = (WORK / "line.csv").read_text().splitlines()
         for sign, line in (("", 3), ("-", 4)):
-            lines[line] = lines[line].rsplit(",", 1)[0] + f",{sign}1.5e308"
+            cells = lines[line].split(",")
+            cells[lines[0].split(",").index(NEWTON)] = sign + "1.5e308"
+            lines[line] = ",".join(cells)
         (WORK / "far.csv").write_text("\n".join(lines) + "\n")
         self.assertIn("numbers beyond 1e300", self.refused("plot", "far.csv", "-o", "far.svg"))
 

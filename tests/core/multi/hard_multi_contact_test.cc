@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
 #include "core/multi/energy.h"
@@ -279,16 +280,6 @@ TEST(HardMultiContactTest, OrdersThatWereNotFollowedDoNotAgree) {
   }
 }
 
-TEST(HardMultiContactTest, OutcomesThatAreLeftOutAreSaid) {
-  MultiContactScene scene = BallsAtAWall({3.0, 1.0, 0.0, -1.0, -3.0, -4.0});
-  for (size_t i = 0; i < scene.contacts.size(); ++i) scene.contacts[i].energetic = 1.0 - 0.07 * static_cast<double>(i);
-  const MultiContactAnswer answer =
-      LocalSolver().MultiContact({.scene = scene, .methods = {MultiContactMethod::kOrders}}).value().answers.front();
-  ASSERT_EQ(answer.orders.size(), kMostOutcomes);
-  ASSERT_EQ(answer.refused.size(), 1U);
-  EXPECT_EQ(answer.refused[0].reason, "outcomes of orders beyond the 256 with the fewest impacts");
-}
-
 // The velocities of balls in a row after the impacts that an order such as "1-2-1" names.
 std::vector<double> AfterOrder(const std::string& order, const std::vector<double>& masses,
                                const std::vector<double>& energetic, std::vector<double> v) {
@@ -302,6 +293,43 @@ std::vector<double> AfterOrder(const std::string& order, const std::vector<doubl
     v[i + 1] += impulse / masses[i + 1];
   }
   return v;
+}
+
+// Adds the velocities at the end of each sequence of at most `most` impacts of balls in a row.
+void AddEnds(const std::vector<double>& masses, const std::vector<double>& energetic, const std::vector<double>& v,
+             int64_t most, std::vector<std::vector<double>>& ends) {
+  bool ended = true;
+  for (size_t i = 0; i + 1 < v.size(); ++i) {
+    if (!(v[i] > v[i + 1])) continue;
+    ended = false;
+    if (most > 0) AddEnds(masses, energetic, AfterOrder(absl::StrCat(i + 1), masses, energetic, v), most - 1, ends);
+  }
+  if (ended) ends.push_back(v);
+}
+
+// A tree that is followed whole, with more than 256 outcomes.
+TEST(HardMultiContactTest, OfTooManyOutcomesThoseWithTheFewestImpactsAreListed) {
+  const std::vector<double> masses = {1.5, 1.0, 1.0, 1.0, 2.0, 2.0}, velocities = {1.1, 2.0, 1.4, 0.7, -1.7, 0.1};
+  const std::vector<double> energetic = {0.96, 0.7, 0.99, 0.82, 0.76};
+  const MultiContactRequest request = {.scene = RowOfBalls(masses, velocities, energetic),
+                                       .methods = {MultiContactMethod::kOrders}};
+  const MultiContactAnswer answer = LocalSolver().MultiContact(request).value().answers.front();
+  ASSERT_EQ(answer.orders.size(), kMostOutcomes);
+  ASSERT_EQ(answer.refused.size(), 1U);
+  EXPECT_EQ(answer.refused[0].reason, "outcomes of orders beyond the 256 with the fewest impacts");
+  int64_t most = 0;
+  for (const AttainedOutcome& outcome : answer.orders) most = std::max(most, outcome.events);
+  std::vector<std::vector<double>> ends;
+  AddEnds(masses, energetic, velocities, most - 1, ends);
+  EXPECT_GT(ends.size(), 100U);
+  for (const std::vector<double>& end : ends) {
+    EXPECT_TRUE(std::any_of(answer.orders.begin(), answer.orders.end(), [&end](const AttainedOutcome& outcome) {
+      for (size_t i = 0; i < end.size(); ++i) {
+        if (std::fabs(outcome.velocity[3 * i] - end[i]) > 1e-9) return false;
+      }
+      return true;
+    })) << testing::PrintToString(end);
+  }
 }
 
 TEST(HardMultiContactTest, OfATreeBeyondTheBudgetManyOrdersAreFollowedToTheirEnds) {
@@ -318,7 +346,9 @@ TEST(HardMultiContactTest, OfATreeBeyondTheBudgetManyOrdersAreFollowedToTheirEnd
     const std::vector<double> v = AfterOrder(outcome.orders[0], masses, energetic, velocities);
     for (size_t i = 0; i < v.size(); ++i) {
       EXPECT_NEAR(outcome.velocity[3 * i], v[i], 1e-12);
-      if (i > 0) EXPECT_GE(v[i], v[i - 1] - 1e-12);
+      if (i > 0) {
+        EXPECT_GE(v[i], v[i - 1] - 1e-12);
+      }
     }
   }
 }

@@ -629,16 +629,15 @@ TEST(FiniteDurationTest, ACoarseToleranceFindsTheEndOfAContactThatIsPressedHard)
   }
 }
 
-// The force does some 1e14 times the work of the approach, so that the path may miss its end and bounce once more.
-TEST(FiniteDurationTest, AnEndThatNothingBoundsIsNoEnd) {
-  for (const double v0 : {-1e-8, -1e-50}) {
+// The force does some 1e14 times the work of the approach, so that the path may miss its end and bounce once more: then
+// no error is claimed.
+TEST(FiniteDurationTest, APathThatMayHaveMissedItsEndClaimsNoError) {
+  for (const double v0 : {-1e-5, -1e-8, -1e-50}) {
     const Impact impact = Solve({.contact = {.w = {1.0, 0.0, 1.0}, .v0 = v0, .coefficient = 1.0},
                                  .normal_acceleration = -9.81,
                                  .spring = HertzSpring{1e6}});
     EXPECT_TRUE(std::isfinite(impact.poisson)) << v0;
-    const bool has_end = impact.termination == Termination::kConverged;
-    EXPECT_EQ(std::isfinite(impact.error_estimate), has_end) << v0;
-    if (has_end) EXPECT_NEAR(impact.newton, 1.0, impact.error_estimate) << v0;
+    EXPECT_LE(std::fabs(impact.newton - 1.0), impact.error_estimate) << v0;
   }
 }
 
