@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,6 +27,14 @@ constexpr char kReaderGoneUrl[] = "ricochet/reader_gone";
 std::atomic<bool (*)()> is_stopped = nullptr;
 
 absl::Status SystemError(const std::string& what) { return absl::ErrnoToStatus(errno, what); }
+
+// Returns how many bytes a pipe or a terminal that has room takes without blocking: an empty pipe as many as it holds.
+size_t RoomIn(int descriptor) {
+  int queued = 0;
+  const int capacity = fcntl(descriptor, F_GETPIPE_SZ);
+  const bool is_empty = capacity > 0 && ioctl(descriptor, FIONREAD, &queued) == 0 && queued == 0;
+  return is_empty ? static_cast<size_t>(capacity) : PIPE_BUF;
+}
 
 // Waits until a write of PIPE_BUF bytes cannot block. Returns false if the run is stopped meanwhile.
 bool WaitForRoom(int descriptor) {
@@ -54,11 +63,12 @@ void StopWritingWhen(bool (*stopped)()) { is_stopped = stopped; }
 
 absl::Status WriteAll(int descriptor, std::string_view text) {
   struct stat info;
-  const bool may_block = fstat(descriptor, &info) == 0 && !S_ISREG(info.st_mode);
+  const bool may_block =
+      isatty(descriptor) == 1 || (fstat(descriptor, &info) == 0 && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode)));
   while (!text.empty()) {
     if (may_block && !WaitForRoom(descriptor)) return absl::CancelledError("interrupted");
-    const ssize_t count =
-        write(descriptor, text.data(), may_block ? std::min<size_t>(text.size(), PIPE_BUF) : text.size());
+    const size_t most = may_block ? RoomIn(descriptor) : text.size();
+    const ssize_t count = write(descriptor, text.data(), std::min(text.size(), most));
     if (count >= 0) {
       text.remove_prefix(static_cast<size_t>(count));
     } else if (errno == EPIPE) {
