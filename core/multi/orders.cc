@@ -211,9 +211,13 @@ class Search {
 
   // True if two states differ by no more than both errors, nor by more than `most`.
   bool AreEqual(const Attained& x, const Attained& y, double most = std::numeric_limits<double>::infinity()) const {
+    const auto difference = [&](int j) { return std::abs(x.v(j) - y.v(j)); };
+    // Errors take far longer to compute than differences, and most states differ by more than rounding.
     for (int j = 0; j < x.v.size(); ++j) {
-      const double difference = std::abs(x.v(j) - y.v(j));
-      if (!(difference <= most && difference <= x.ErrorOf(problem_, j) + y.ErrorOf(problem_, j))) return false;
+      if (!(difference(j) <= most)) return false;
+    }
+    for (int j = 0; j < x.v.size(); ++j) {
+      if (!(difference(j) <= x.ErrorOf(problem_, j) + y.ErrorOf(problem_, j))) return false;
     }
     return true;
   }
