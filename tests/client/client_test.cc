@@ -54,16 +54,16 @@ TEST(ClientOptions, AreRefusedAllAtOnceByName) {
   const absl::Status status = Client::Connect(options).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(ReasonOf(status), ErrorReason::kInvalidRequest);
-  EXPECT_THAT(
-      ViolationsOf(status),
-      ElementsAre(Violation{"target", "is empty: must be \"host:port\""}, Violation{"deadline", "= 0 ms: must be > 0 and at most a year"},
-                  Violation{"sweep_deadline", "= -5 ms: must be > 0 and at most a year"},
-                  Violation{"max_receive_bytes", "= 0: must be in [1, 2147483647]"},
-                  Violation{"retry.max_attempts", "= 6: must be in [1, 5]"},
-                  Violation{"retry.max_resumes", "= -1: must be >= 0"},
-                  Violation{"retry.initial_backoff", "= 0 ms: must be > 0 and at most a year"},
-                  Violation{"retry.max_backoff", "= -1 ms: must be >= retry.initial_backoff"},
-                  Violation{"retry.multiplier", "= 0.5: must be finite and >= 1"}));
+  EXPECT_THAT(ViolationsOf(status),
+              ElementsAre(Violation{"target", "is empty: must be \"host:port\""},
+                          Violation{"deadline", "= 0 ms: must be > 0 and at most a year"},
+                          Violation{"sweep_deadline", "= -5 ms: must be > 0 and at most a year"},
+                          Violation{"max_receive_bytes", "= 0: must be in [1, 2147483647]"},
+                          Violation{"retry.max_attempts", "= 6: must be in [1, 5]"},
+                          Violation{"retry.max_resumes", "= -1: must be >= 0"},
+                          Violation{"retry.initial_backoff", "= 0 ms: must be > 0 and at most a year"},
+                          Violation{"retry.max_backoff", "= -1 ms: must be >= retry.initial_backoff"},
+                          Violation{"retry.multiplier", "= 0.5: must be finite and >= 1"}));
 }
 
 TEST(ServiceConfig, IsTheJsonThatGrpcReads) {

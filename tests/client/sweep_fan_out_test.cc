@@ -251,8 +251,9 @@ TEST(FanOutOptions, AreRefusedByName) {
   const absl::Status status =
       Client::Connect({.target = "a:1,b:1", .fan_out = FanOut{.buffer_bytes = 0, .slow_after = milliseconds(0)}})
           .status();
-  EXPECT_THAT(ViolationsOf(status), ElementsAre(Violation{"fan_out.buffer_bytes", "= 0: must be > 0"},
-                                                Violation{"fan_out.slow_after", "= 0 ms: must be > 0 and at most a year"}));
+  EXPECT_THAT(ViolationsOf(status),
+              ElementsAre(Violation{"fan_out.buffer_bytes", "= 0: must be > 0"},
+                          Violation{"fan_out.slow_after", "= 0 ms: must be > 0 and at most a year"}));
 }
 
 }  // namespace

@@ -253,7 +253,7 @@ struct Outcome {
   EffectiveCoefficients effective;
   Accuracy accuracy;
   NumberErrors errors;
-  std::vector<Note> notes;                   // In the order of their kinds and fields.
+  std::vector<Note> notes;  // In the order of their kinds and fields.
   // The ends of the range of impulses that solve a Kane-Levinson law; one if the range has no other end. Empty for a
   // single solution.
   std::vector<ImpactSolution> alternatives;
