@@ -153,8 +153,8 @@ class Search {
         Keep(std::move(state));
         return taken;
       }
-      // If two impacts do not affect each other, the contact with the smaller number is struck first. Where branches are
-      // left out, that order may be among them.
+      // If two impacts do not affect each other, the contact with the smaller number is struck first. Where branches
+      // are left out, that order may be among them.
       const auto others =
           std::stable_partition(next.begin(), next.end(), [&](int i) { return i > last || coupled_[Place(i, last)]; });
       if (others == next.begin() && !shares_) return taken;
@@ -237,7 +237,7 @@ class Search {
     return state.end != MultiContactEnd::kBudgetUsedUp && state.end != MultiContactEnd::kWedged;
   }
 
-  // Tells which of two outcomes is left out where there are too many: one that has not ended, then that of more impacts.
+  // Tells which of two outcomes is left out of too many: one that has not ended, then that of more impacts.
   static bool IsLonger(const Attained& x, const Attained& y) {
     return IsEnd(x) == IsEnd(y) ? x.events > y.events : IsEnd(y);
   }

@@ -262,7 +262,7 @@ struct Nested {
   }
 };
 
-// A oneof: its members stand for the alternatives of a variant in their order, after the one that says that none is set.
+// A oneof: its members stand for the alternatives of a variant in their order, after that for none.
 // A member is the Access of a message, or the Field of a number that is the only member of its alternative.
 template <typename... Cases>
 struct OneOf {

@@ -151,8 +151,8 @@ int WebServer::Handle(mg_connection* connection, void* server) {
   Exchange exchange(connection);
   const absl::Status allowed = self.Check(exchange);
   if (!allowed.ok()) mg_disable_connection_keep_alive(connection);
-  // A thread of civetweb has a stack of 100 KiB, which is too small to compute on. The system may have none left, and an
-  // exception must not get into civetweb.
+  // A thread of civetweb has a stack of 100 KiB, which is too small to compute on. The system may have no thread left,
+  // and an exception must not get into civetweb.
   try {
     std::thread([&] { self.answer_(exchange, allowed); }).join();
   } catch (const std::system_error&) {

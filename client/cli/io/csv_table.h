@@ -40,8 +40,9 @@ struct CsvTable {
 };
 
 // Reads a table part by part, so that a long one takes little memory. Columns are separated by commas. A cell may stand
-// in double quotes, and may then have commas and line ends. A cell that is missing or not a number becomes a NaN, and so do all cells
-// of a row with more cells than the header. Empty lines, lines that start with # and a byte order mark are skipped.
+// in double quotes, and may then have commas and line ends. A cell that is missing or not a number becomes a NaN, and
+// so do all cells of a row with more cells than the header. Empty lines, lines that start with # and a byte order mark
+// are skipped.
 class CsvReader {
  public:
   // Reads the header. `name` names the table in errors; the stream must live as long as the reader.

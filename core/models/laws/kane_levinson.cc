@@ -32,8 +32,8 @@ ImpactLawResult SolveRankOne(const PlanarProblem& input, const NewtonImpact& imp
   return result;
 }
 
-// True if the impulse that ends without slip lies beyond the cone, s G > mu T. Near the cone both sides cancel, and slip
-// that is small beside u0 may still be far above a rounding error.
+// True if the impulse that ends without slip lies beyond the cone, s G > mu T. Near the cone both sides cancel, and
+// slip that is small beside u0 may still be far above a rounding error.
 bool SlipsAtEnd(const PlanarProblem& input, double e, double s) {
   const auto exactly = [](double x) { return Wide::Exactly(x); };
   const Wide along = exactly(s);
