@@ -83,22 +83,16 @@ struct Client::Connection {
     }
   }
 
-  // Converts the request to its proto, and the response of `method` back.
+  // Converts the request to its proto, and the response of `method` back, whose lists a caller may then index.
   template <typename Request, typename WireRequest, typename WireResponse>
   auto Ask(Method<WireRequest, WireResponse> method, const Request& request, const CallOptions& given)
       -> absl::StatusOr<decltype(FromProto(WireResponse()))> {
-    const absl::StatusOr<WireResponse> response = AskWire(method, ToProto(request), given);
-    if (!response.ok()) return response.status();
-    return FromProto(*response);
-  }
-
-  // The same for an answer with lists by whose lengths a caller indexes.
-  template <typename Request, typename WireRequest, typename WireResponse>
-  auto AskShaped(Method<WireRequest, WireResponse> method, const Request& request, const CallOptions& given)
-      -> absl::StatusOr<decltype(FromProto(WireResponse()))> {
-    auto response = Ask(method, request, given);
-    if (!response.ok()) return response;
-    if (absl::Status misshaped = CheckShape(request, *response); !misshaped.ok()) return misshaped;
+    const absl::StatusOr<WireResponse> wire = AskWire(method, ToProto(request), given);
+    if (!wire.ok()) return wire.status();
+    auto response = FromProto(*wire);
+    if constexpr (requires { CheckShape(request, response); }) {
+      if (absl::Status misshaped = CheckShape(request, response); !misshaped.ok()) return misshaped;
+    }
     return response;
   }
 
@@ -168,12 +162,12 @@ absl::StatusOr<AuditBatchResponse> Client::DoAuditBatch(const AuditBatchRequest&
 }
 
 absl::StatusOr<FitResponse> Client::DoFit(const FitRequest& request, const CallOptions& options) const {
-  return connection_->AskShaped(&Stub::Fit, request, options);
+  return connection_->Ask(&Stub::Fit, request, options);
 }
 
 absl::StatusOr<MultiContactResponse> Client::DoMultiContact(const MultiContactRequest& request,
                                                             const CallOptions& options) const {
-  return connection_->AskShaped(&Stub::MultiContact, request, options);
+  return connection_->Ask(&Stub::MultiContact, request, options);
 }
 
 absl::StatusOr<BatchSession> Client::DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const {

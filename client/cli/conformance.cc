@@ -153,8 +153,9 @@ void AddGradeOptions(CLI::App& sub, ConformanceOptions& options) {
            sub.add_option("ANSWERS", options.name,
                           "Velocities after, as JSON or CSV (docs/conformance.md); - for standard input"))
       ->required();
-  sub.add_option("--tolerance", options.tolerance,
-                 "Largest error of a velocity, m/s or rad/s, that counts as right [1e-9]")
+  sub.add_option(
+         "--tolerance", options.tolerance,
+         absl::StrCat("Largest error of a velocity, m/s or rad/s, that counts as right [", options.tolerance, "]"))
       ->type_name("X");
   sub.add_option("--law", options.law,
                  "newton, poisson or energetic: the law to be obeyed [that of ANSWERS, else the one that most obey]")

@@ -113,7 +113,8 @@ void AddExplore(CLI::App& app, Command& command) {
   const auto [sub, options] = AddCommand<ExploreOptions>(
       app, "explore", "A page to explore an impact, and the service as HTTP with JSON", kExample, RunExplore, command);
   AddSceneOptions(*sub, options->scene);
-  sub->add_option("--listen", options->listen, "Where to serve; port 0 lets the system choose [127.0.0.1:0]")
+  sub->add_option("--listen", options->listen,
+                  absl::StrCat("Where to serve; port 0 lets the system choose [", options->listen, "]"))
       ->type_name("ADDRESS:PORT");
   sub->add_flag("--insecure", options->insecure,
                 "Allow an address that other hosts can reach; nothing is encrypted, not even the token");

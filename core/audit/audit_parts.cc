@@ -3,7 +3,6 @@
 #include <utility>
 #include <variant>
 
-#include "absl/strings/str_cat.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/plan/scene_problem.h"
 #include "core/scene/validate.h"

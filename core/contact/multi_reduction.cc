@@ -1,7 +1,6 @@
 #include "core/contact/multi_reduction.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

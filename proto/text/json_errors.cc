@@ -133,7 +133,7 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
   };
 
   bool Descend(Level level) {
-    constexpr size_t kMostLevels = 100;  // Those of protobuf's own parsers.
+    constexpr size_t kMostLevels = 100;  // Protobuf's own parsers take as many.
     if (levels_.size() >= kMostLevels) return Fail(absl::StrCat("must not nest more than ", kMostLevels, " levels"));
     levels_.push_back(std::move(level));
     return true;

@@ -178,6 +178,10 @@ struct Field {
   Member member;
   Access access;
 
+  template <typename Message>
+  bool has(const Message& message) const {
+    return access.has(message);
+  }
   template <typename Struct, typename Message>
   void Write(const Struct& value, Message& message) const {
     const auto& number = member(value);
@@ -222,7 +226,7 @@ struct Defaulted {
   }
   template <typename Message, typename Struct>
   void Read(const Message& message, Struct& value) const {
-    if (field.access.has(message)) field.Read(message, value);
+    if (field.has(message)) field.Read(message, value);
   }
 };
 
@@ -282,14 +286,6 @@ struct OneOf {
   }
 
  private:
-  template <typename Case, typename Message>
-  static bool Has(const Case& one, const Message& message) {
-    if constexpr (requires { one.access; }) {
-      return one.access.has(message);
-    } else {
-      return one.has(message);
-    }
-  }
   template <typename Variant, typename Message, size_t... kIndex>
   void WriteOne(const Variant& variant, Message& message, std::index_sequence<kIndex...> /*indices*/) const {
     static_cast<void>(((variant.index() == kIndex + 1 &&
@@ -298,7 +294,7 @@ struct OneOf {
   }
   template <typename Message, typename Variant, size_t... kIndex>
   void ReadOne(const Message& message, Variant& variant, std::index_sequence<kIndex...> /*indices*/) const {
-    static_cast<void>(((Has(std::get<kIndex>(cases), message) &&
+    static_cast<void>(((std::get<kIndex>(cases).has(message) &&
                         (std::get<kIndex>(cases).Read(message, variant.template emplace<kIndex + 1>()), true)) ||
                        ...));
   }

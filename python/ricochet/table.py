@@ -82,7 +82,7 @@ class Table:
         return iter(self.columns)
 
     def __contains__(self, name: object) -> bool:
-        return isinstance(name, str) and bool(name in self.columns or len(meanings(name, self.columns)) == 1)
+        return isinstance(name, str) and len(meanings(name, self.columns)) == 1
 
     def keys(self) -> Iterable[str]:
         """Returns the names of the columns."""
