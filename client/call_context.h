@@ -34,7 +34,9 @@ class CallContext {
       : cancel_(options.stop, [this] { context_.TryCancel(); }) {
     std::optional<std::chrono::nanoseconds> left = most;
     if (options.deadline.has_value()) {
-      const std::chrono::nanoseconds given = *options.deadline - std::chrono::steady_clock::now();
+      // The difference to a time long past would overflow.
+      const auto now = std::chrono::steady_clock::now();
+      const std::chrono::nanoseconds given = std::max(*options.deadline, now) - now;
       left = std::min(given, left.value_or(given));
     }
     if (IsStopped(options)) context_.TryCancel();

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "absl/strings/ascii.h"
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
@@ -16,6 +19,7 @@ namespace ricochet {
 namespace {
 
 constexpr int kMostAttempts = 5;  // gRPC treats a larger number as 5.
+constexpr size_t kLongestUserAgent = 256;
 
 std::string Seconds(std::chrono::milliseconds time) {
   return absl::StrFormat("%d.%03ds", time.count() / 1000, time.count() % 1000);
@@ -80,6 +84,12 @@ absl::Status ValidateOptions(const ClientOptions& options) {
   }
   for (Violation& violation : RetryViolations(options.retry)) {
     violations.push_back(std::move(violation));
+  }
+  const std::string& agent = options.user_agent;
+  if (agent.size() > kLongestUserAgent || !std::all_of(agent.begin(), agent.end(), absl::ascii_isprint)) {
+    violations.push_back(
+        {"user_agent", absl::StrCat("= \"", absl::CEscape(agent.substr(0, kLongestUserAgent)), "\": must be at most ",
+                                    kLongestUserAgent, " printable characters of ASCII")});
   }
   if (options.fan_out.has_value() && options.fan_out->buffer_bytes <= 0) {
     violations.push_back({"fan_out.buffer_bytes", absl::StrCat("= ", options.fan_out->buffer_bytes, ": must be > 0")});

@@ -24,6 +24,7 @@ except ImportError:
     print('grade.py: needs NumPy, which this Python does not have', file=sys.stderr)
     sys.exit(2)
 
+BLANKS = ' \t\r\v\f'
 LAWS = ('newton', 'poisson', 'energetic')
 LIMITS = ('energy', 'approach', 'cone', 'symmetry')
 ROUNDING = 2.0 ** -46
@@ -100,6 +101,7 @@ def no_constant(name):
 def read_json(text, path, cases):
     try:
         whole = json.loads(text, object_pairs_hook=object_of, parse_int=float, parse_constant=no_constant)
+        json.dumps(whole, ensure_ascii=False).encode()  # Half of a surrogate pair is no text.
     except (ValueError, RecursionError) as error:
         refuse(f'{path} is not JSON: {error}; is it whole?')
     known_keys(whole, path, ('simulator', 'law', 'answers'))
@@ -138,10 +140,13 @@ def number(text):
 
 
 def read_csv(text, path, cases):
-    lines = [line.strip() for line in text.split('\n')]
+    lines = [line.strip(BLANKS) for line in text.split('\n')]
+    lines = [line for line in lines if line and line[0] != '#']
+    for line in lines:
+        if line.count('"') % 2:
+            refuse(f'{path}: {line} begins a cell in quotes that does not end')
     try:
-        rows = [[cell.strip() for cell in row] for row in
-                csv.reader((line for line in lines if line and line[0] != '#'), skipinitialspace=True)]
+        rows = [[cell.strip(BLANKS) for cell in row] for row in csv.reader(lines, skipinitialspace=True, strict=True)]
     except csv.Error as error:
         refuse(f'{path} is not CSV: {error}')
     header = rows[0] if rows else []

@@ -21,6 +21,8 @@ constexpr std::array<size_t, 2> kSides = {0, 1};  // Below, above.
 // A scene next to this one, over the size of the number: it tells the course and whether the outcome jumps.
 constexpr double kBeside = 0x1p-44;
 constexpr double kJump = 0x1p-24;
+// The error that is claimed over the estimate. Of many estimates the least is taken, which may be so by chance.
+constexpr double kMargin = 16.0;
 // The steps over the size of the number, as negative powers of two.
 constexpr int kFirstStep = 4;
 constexpr int kLastStep = 30;
@@ -121,14 +123,14 @@ class Sides {
     Derivative derivative = Join(below, above, agree, ThresholdHere());
     if (!agree) {
       if (derivative.kind == DerivativeKind::kOneSided) {
-        derivative.error = std::max(below.error.value_or(0.0), above.error.value_or(0.0));
+        derivative.error = kMargin * std::max(below.error.value_or(0.0), above.error.value_or(0.0));
       }
       return derivative;
     }
     Estimate best = central_[i];
     for (const auto& side : one_sided_) Improve(best, side[i]);
     derivative.value = derivative.from_below = derivative.from_above = best.rate + 0.0;
-    derivative.error = best.error;
+    derivative.error = kMargin * best.error;
     return derivative;
   }
 

@@ -105,17 +105,37 @@ void ExactDerivatives::Compute(const Scene& scene) {
   planar::SetTangents(absl::MakeSpan(impacts_));
 }
 
+// A coefficient at the end of its range must not leave it. Beside a number that is 0 rounding may hide that it does.
+bool ExactDerivatives::StaysInDomain(const Side& side) const {
+  const auto& [kinetic, at_rest, restitution] = ContactOf(side).coefficients;
+  const ContactTangent& d = side.contact_tangent;
+  const auto stays = [](double coefficient, double rate) { return coefficient != 0.0 || rate >= 0.0; };
+  return stays(kinetic, d.kinetic_friction) && stays(at_rest, d.static_friction) &&
+         stays(restitution.value_or(0.0), d.restitution);
+}
+
 void ExactDerivatives::SetSide(Number& number, const ContactTangents& tangents_here, double sign, Side& side) {
   side.exists = true;
   side.step = sign;
   side.own_contact.reset();
   if (number.path == kPhi) {
-    // a = R sin phi and b = R cos phi.
-    const auto& pendulum = std::get<Pendulum>(number.scene.system);
+    // a = R sin phi and b = R cos phi. One of them that is 0 has its sides beside it.
+    auto& pendulum = std::get<Pendulum>(number.scene.system);
+    const Pendulum here = pendulum;
+    const bool is_upright = here.a_m == 0.0 || here.b_m == 0.0;
+    if (is_upright) side.step *= kBeside;
     auto& change = std::get<Pendulum>(number.direction.system);
-    change.a_m = sign * pendulum.b_m;
-    change.b_m = -sign * pendulum.a_m;
-    return AddImpact(number, tangents_here, side);
+    change.a_m = side.step * here.b_m;
+    change.b_m = -side.step * here.a_m;
+    if (is_upright) {
+      pendulum.a_m += change.a_m;
+      pendulum.b_m += change.b_m;
+      side.exists = Validate(number.scene).empty();
+      side.own_contact.emplace(number.scene);
+    }
+    if (side.exists) AddImpact(number, tangents_here, side);
+    pendulum = here;
+    return;
   }
   const double value = number.field.value();
   const double size = value == 0.0 ? kBeside : std::fabs(value);
@@ -127,6 +147,7 @@ void ExactDerivatives::SetSide(Number& number, const ContactTangents& tangents_h
     if (value == 0.0 || !number.is_stated) side.own_contact.emplace(number.scene);
     number.along.Set(side.step);
     AddImpact(number, tangents_here, side);
+    side.exists = StaysInDomain(side);
   }
   number.field.Set(value);
 }

@@ -65,6 +65,7 @@ class ExactDerivatives {
   void AddImpact(const Number& number, const ContactTangents& tangents_here, Side& side);
   const SceneContact& ContactOf(const Side& side) const;
   const PlanarReduction& ReductionOf(const Side& side) const;
+  bool StaysInDomain(const Side& side) const;
   bool LosesRank(const Side& side) const;
   double RateOf(const Side& side, size_t place) const;
   double SizeOf(size_t place) const;

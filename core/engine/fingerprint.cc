@@ -12,6 +12,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/answer/scene_outcome.h"
+#include "core/base/floating_point_mode.h"
 #include "core/base/invariant.h"
 #include "core/base/stable_hash.h"
 #include "core/contact/multi_reduction.h"
@@ -304,6 +305,7 @@ std::string FingerprintOf(absl::Span<const Probe> probes) {
 }
 
 const EngineInfo& ThisEngine() {
+  const DefaultFloatingPoint mode;
   static const EngineInfo engine = {.version = RICOCHET_VERSION, .fingerprint = FingerprintOf(ProbeEngine())};
   return engine;
 }

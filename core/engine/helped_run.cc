@@ -36,10 +36,17 @@ void HelpedRun::AskForHelp(std::unique_lock<std::mutex>& lock) {
   while (helping_ < most_ && has_work_()) {
     ++helping_;
     lock.unlock();
-    const bool has_started = helpers_->Start([this](absl::FunctionRef<bool()> gives_way) { RunHelper(gives_way); });
+    bool has_started = false;
+    std::exception_ptr failure;
+    try {
+      has_started = helpers_->Start([this](absl::FunctionRef<bool()> gives_way) { RunHelper(gives_way); });
+    } catch (...) {
+      failure = std::current_exception();
+    }
     lock.lock();
     if (has_started) continue;
     --helping_;
+    if (failure != nullptr) std::rethrow_exception(failure);
     return;
   }
 }

@@ -1,59 +1,82 @@
 #include "core/engine/helper_threads.h"
 
+#include <sched.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <system_error>
 #include <utility>
 
 namespace ricochet {
+namespace {
+
+int CountCores() {
+  cpu_set_t cores;
+  // It fails on a machine with more than 1024.
+  if (sched_getaffinity(0, sizeof(cores), &cores) == 0) return CPU_COUNT(&cores);
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace
 
 int AvailableCores() {
-  static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  static const int cores = CountCores();
   return cores;
 }
 
+HelperThreads::HelperThreads(int most) : most_(most), process_(getpid()), pool_(std::make_unique<Pool>()) {}
+
 HelperThreads::~HelperThreads() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
+  if (IsForked()) {
+    static auto& left_for_ever = *new std::deque<std::unique_ptr<Pool>>;
+    left_for_ever.push_back(std::move(pool_));
+    return;
   }
-  changed_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
+  {
+    const std::lock_guard lock(pool_->mutex);
+    pool_->stopping = true;
+  }
+  pool_->changed.notify_all();
+  for (std::thread& thread : pool_->threads) thread.join();
 }
 
+bool HelperThreads::IsForked() const { return getpid() != process_; }
+
 bool HelperThreads::Start(Help help) {
+  if (IsForked()) return false;
   {
-    const std::lock_guard lock(mutex_);
-    if (helping_ == most_) return false;
-    if (static_cast<size_t>(helping_) == threads_.size() && !StartThread()) return false;
-    ++helping_;
-    waiting_.push_back(std::move(help));
+    const std::lock_guard lock(pool_->mutex);
+    if (pool_->helping == most_) return false;
+    if (static_cast<size_t>(pool_->helping) == pool_->threads.size() && !pool_->StartThread()) return false;
+    ++pool_->helping;
+    pool_->waiting.push_back(std::move(help));
   }
-  changed_.notify_one();
+  pool_->changed.notify_one();
   return true;
 }
 
-bool HelperThreads::StartThread() {
+bool HelperThreads::Pool::StartThread() {
   try {
-    threads_.emplace_back([this] { Serve(); });
+    threads.emplace_back([this] { Serve(); });
     return true;
   } catch (const std::system_error&) {
     return false;
   }
 }
 
-void HelperThreads::Serve() {
-  std::unique_lock lock(mutex_);
+void HelperThreads::Pool::Serve() {
+  std::unique_lock lock(mutex);
   for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
-    if (waiting_.empty()) return;
-    Help help = std::move(waiting_.front());
-    waiting_.pop_front();
+    changed.wait(lock, [this] { return stopping || !waiting.empty(); });
+    if (waiting.empty()) return;
+    Help help = std::move(waiting.front());
+    waiting.pop_front();
     lock.unlock();
     help([] { return false; });
     help = nullptr;
     lock.lock();
-    --helping_;
+    --helping;
   }
 }
 

@@ -4,8 +4,11 @@
 #ifndef RICOCHET_CORE_ENGINE_HELPER_THREADS_H_
 #define RICOCHET_CORE_ENGINE_HELPER_THREADS_H_
 
+#include <sys/types.h>
+
 #include <condition_variable>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -17,26 +20,34 @@ namespace ricochet {
 class HelperThreads final : public Helpers {
  public:
   // At most `most` >= 0 threads.
-  explicit HelperThreads(int most) : most_(most) {}
+  explicit HelperThreads(int most);
   // Waits until no thread helps any more. No thread of this object may destroy it.
   ~HelperThreads() override;
 
   int most() const override { return most_; }
-  // Returns false as well if the system gives no more threads.
+  // Returns false as well if the system gives no more threads, and in a process that was forked.
   bool Start(Help help) override;
 
  private:
-  void Serve();
-  // Called with the mutex locked.
-  bool StartThread();
+  struct Pool {
+    void Serve();
+    // Called with the mutex locked.
+    bool StartThread();
+
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::deque<Help> waiting;
+    int helping = 0;  // Helps that were accepted and have not returned.
+    bool stopping = false;
+    std::vector<std::thread> threads;
+  };
+
+  // A fork copies this object without its threads, so that the copy must neither use nor destroy its pool.
+  bool IsForked() const;
 
   const int most_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Help> waiting_;
-  int helping_ = 0;  // Helps that were accepted and have not returned.
-  bool stopping_ = false;
-  std::vector<std::thread> threads_;
+  const pid_t process_;
+  std::unique_ptr<Pool> pool_;
 };
 
 }  // namespace ricochet

@@ -61,6 +61,18 @@ absl::Status CheckStart(const FitRequest& request, Model& model) {
   return InvalidRequest({{bad.field, absl::StrCat(bad.description, " in row ", row)}});
 }
 
+// Refuses a fit whose residuals have no squares: nothing else that it says would be true.
+absl::Status CheckResiduals(const FitRequest& request, const FitResponse& response) {
+  for (size_t row = 0; row < response.rows.size(); ++row) {
+    const std::vector<double>& residuals = response.rows[row].residuals;
+    for (size_t j = 0; j < residuals.size(); ++j) {
+      if (std::isnan(residuals[j]) || std::isfinite(residuals[j] * residuals[j])) continue;
+      return OutputOverflow(absl::StrCat("rows[", row, "].residuals[", j, "]^2, of ", request.measured[j].path, ","));
+    }
+  }
+  return std::isfinite(response.chi2) ? absl::OkStatus() : OutputOverflow("chi2");
+}
+
 // Fits one request.
 class Fitter {
  public:
@@ -218,6 +230,7 @@ absl::StatusOr<FitResponse> FitScene(const FitRequest& request, fit::OpenRows op
   if (absl::Status bad = fit::CheckStart(request, model); !bad.ok()) return bad;
   FitResponse response = fit::Fitter(*problem, model).Fit();
   if (model.is_stopped()) return absl::CancelledError("the fit was stopped by its caller");
+  if (absl::Status overflow = fit::CheckResiduals(request, response); !overflow.ok()) return overflow;
   return response;
 }
 

@@ -21,6 +21,8 @@
 namespace ricochet::fit {
 namespace {
 
+// Weights are squares of sigma.
+constexpr double kLeastSigma = 1e-150, kMostSigma = 1e150;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The range in which a number keeps its rule.
@@ -187,9 +189,12 @@ class Door {
       RefuseNumber(absl::StrCat(name, ".values[", row, "]"), value, "be finite, or NaN where nothing was measured");
     }
     // One sigma of all rows is refused once.
-    if (!(sigma > 0.0 && std::isfinite(sigma)) && (!is_one || refused_sigmas_.insert(column).second)) {
+    const bool is_right = sigma > 0.0 && std::isfinite(sigma);
+    const bool has_squares = sigma >= kLeastSigma && sigma <= kMostSigma;
+    if (!has_squares && (!is_one || refused_sigmas_.insert(column).second)) {
       RefuseNumber(absl::StrCat(name, ".sigma[", is_one ? 0 : row, "]"), sigma,
-                   "be > 0, the standard deviation of the error");
+                   is_right ? absl::StrCat("be in [", kLeastSigma, ", ", kMostSigma, "]")
+                            : "be > 0, the standard deviation of the error");
     }
     problem_.numbers.push_back({row, column, value, sigma});
   }
@@ -203,6 +208,8 @@ class Door {
   void SetSearch() {
     SetCount("starts", request_.starts, kMostFitStarts, problem_.starts);
     SetCount("max_iterations", request_.max_iterations, kMostFitIterations, problem_.max_iterations);
+    const auto loss = static_cast<int>(request_.loss);
+    if (loss < 0 || loss >= kFitLossCount) Refuse("loss", absl::StrCat("= ", loss), "be a loss that is named");
     const bool is_robust = request_.loss == FitLoss::kHuber || request_.loss == FitLoss::kCauchy;
     problem_.loss = is_robust ? request_.loss : FitLoss::kSquares;
     problem_.loss_scale = request_.loss_scale.value_or(request_.loss == FitLoss::kHuber ? kHuberScale : kCauchyScale);

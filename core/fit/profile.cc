@@ -25,7 +25,12 @@ constexpr size_t kTriedPlaces = 2;
 class Ray {
  public:
   Ray(const Minimum& best, const Direction& direction, double rise, Model& model)
-      : best_(best), is_free_(direction.is_free), step_(direction.step), rise_(rise), model_(model), last_(best.at) {
+      : best_(best),
+        is_free_(direction.is_free),
+        step_(direction.step),
+        rise_(rise),
+        model_(model),
+        last_inside_(best.at) {
     const Problem& problem = model.problem();
     for (size_t k = 0; k < step_.size(); ++k) {
       if (is_free_[k] || step_[k] == 0.0) continue;
@@ -40,7 +45,7 @@ class Ray {
 
   RayEnd Find(int places) {
     RayEnd end = Search();
-    last_ = best_.at;
+    last_inside_ = best_.at;
     if (end.kind == FitEndKind::kUnbounded || end.distance == 0.0) places = 0;
     for (int i = 1; i <= places && !model_.is_stopped(); ++i) Next(end.distance * i / (places + 1.0));
     end.computed = std::move(end_.computed);
@@ -88,21 +93,35 @@ class Ray {
   }
 
   RayPoint Adopt(double distance, const Minimum& least) {
-    if (std::isfinite(least.objective)) last_ = least.at;
+    const double rise = least.objective - best_.objective;
+    if (rise < rise_) {
+      last_inside_ = least.at;
+      // What was found outside before this place was no least objective.
+      std::erase_if(end_.computed,
+                    [&](const RayPoint& point) { return point.distance <= distance && point.rise >= rise_; });
+    }
     if (least.objective < best_.objective - kAsGood && !end_.better.has_value()) end_.better = least;
-    end_.computed.push_back({distance, least.objective - best_.objective});
-    return end_.computed.back();
+    return end_.computed.emplace_back(RayPoint{distance, rise});
   }
 
-  // The other unknowns start where they ended last.
+  // The other unknowns start where they ended inside last. A place outside is tried from elsewhere, as they may have
+  // ended where they change nothing.
   RayPoint Next(double distance) {
-    return Adopt(distance, Minimize(StartAt(distance, last_, 1.0), is_free_, kCoarseSearch, model_));
+    Minimum least = Minimize(StartAt(distance, last_inside_, 1.0), is_free_, kCoarseSearch, model_);
+    for (const std::vector<double>& start : OtherStarts(distance)) {
+      if (least.objective - best_.objective < rise_) break;
+      Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
+      if (found.objective < least.objective) least = std::move(found);
+    }
+    return Adopt(distance, least);
   }
 
-  // Sees whether a place outside is inside if the other unknowns start elsewhere. If so, it is the new place inside.
+  // Sees whether a place outside is inside if the other unknowns start where they fit best of many places. If so, it is
+  // the new place inside.
   bool GoesOn(const RayPoint& outside, RayPoint& inside) {
-    if (std::none_of(is_free_.begin(), is_free_.end(), [](bool is_free) { return is_free; })) return false;
-    for (const std::vector<double>& start : OtherStarts(outside.distance)) {
+    if (!HasFree()) return false;
+    for (const std::vector<double>& start :
+         BestPlaces(StartAt(outside.distance, best_.at, 1.0), is_free_, kLookedAt, kTriedPlaces, model_)) {
       const Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
       if (!(found.objective - best_.objective < rise_)) continue;
       inside = Adopt(outside.distance, found);
@@ -111,19 +130,24 @@ class Ray {
     return false;
   }
 
-  // The other unknowns at the best fit; moved by the factor of the one that is held, or by its inverse, as numbers do
-  // of which a product or a quotient alone is measured; and where they fit best of many places.
-  std::vector<std::vector<double>> OtherStarts(double distance) {
-    double factor = 1.0;
-    std::vector<std::vector<double>> starts = {StartAt(distance, best_.at, 1.0)};
-    const std::vector<double> held = starts.front();
-    for (size_t k = 0; k < held.size(); ++k) {
-      if (!is_free_[k] && best_.at[k] != 0.0) factor = held[k] / best_.at[k];
-    }
-    starts.push_back(StartAt(distance, best_.at, factor));
-    starts.push_back(StartAt(distance, best_.at, 1.0 / factor));
-    for (std::vector<double>& place : BestPlaces(held, is_free_, kLookedAt, kTriedPlaces, model_)) {
-      starts.push_back(std::move(place));
+  bool HasFree() const {
+    return std::any_of(is_free_.begin(), is_free_.end(), [](bool is_free) { return is_free; });
+  }
+
+  // The other unknowns at the last place inside and at the best fit; and moved from there by the factor of the one that
+  // is held, or by its inverse, as numbers do of which a product or a quotient alone is measured.
+  std::vector<std::vector<double>> OtherStarts(double distance) const {
+    std::vector<std::vector<double>> starts;
+    if (!HasFree()) return starts;
+    for (const std::vector<double>* const from : {&last_inside_, &best_.at}) {
+      const std::vector<double> held = StartAt(distance, *from, 1.0);
+      double factor = 1.0;
+      for (size_t k = 0; k < held.size(); ++k) {
+        if (!is_free_[k] && (*from)[k] != 0.0) factor = held[k] / (*from)[k];
+      }
+      if (from == &best_.at) starts.push_back(held);
+      starts.push_back(StartAt(distance, *from, 1.0 / factor));
+      starts.push_back(StartAt(distance, *from, factor));
     }
     return starts;
   }
@@ -152,7 +176,7 @@ class Ray {
   const std::vector<double>& step_;
   const double rise_;
   Model& model_;
-  std::vector<double> last_;                                  // The unknowns of the last place.
+  std::vector<double> last_inside_;                           // The unknowns of the last place inside.
   double longest_ = std::numeric_limits<double>::infinity();  // The distance to the nearest bound.
   double at_bound_ = 0.0;                                     // An end that is no further from the bound lies there.
   RayEnd end_;  // It holds what the places so far have shown, but for the kind.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "absl/status/status.h"
@@ -168,7 +169,14 @@ class Answerer {
     in_scene = sorted_.InScene(error).cwiseAbs();
     outcome.contact_velocity_error_m_s.assign(in_scene.begin(), in_scene.end());
     if (!std::holds_alternative<ContactMatrix>(request_.scene.system)) AddVelocities(attained, outcome);
-    if (attained.end == MultiContactEnd::kWedged) return outcome;
+    if (attained.end == MultiContactEnd::kWedged) {
+      // The impulse has no end, and the energy is that of the velocity.
+      Problem after = problem;
+      after.v = attained.v;
+      outcome.energy_change_j = 0.5 * (MetricOf(after).y.squaredNorm() - metric_.y.squaredNorm()) * EnergyScale();
+      outcome.work_error_j = kInfinity;
+      return outcome;
+    }
     in_scene = (sorted_.InScene(attained.p) * ImpulseScale()).array() + 0.0;
     outcome.impulse_n_s.assign(in_scene.begin(), in_scene.end());
     outcome.normal_impulse_error_n_s.resize(static_cast<size_t>(problem.k));
@@ -232,8 +240,10 @@ class Answerer {
         outcome.orders.push_back(OrderText(distinct.orders[i], distinct.repeats_from[i], sorted_));
       }
     }
-    std::sort(answer_.orders.begin(), answer_.orders.end(),
-              [](const AttainedOutcome& x, const AttainedOutcome& y) { return x.orders < y.orders; });
+    // Those that ended come first.
+    std::sort(answer_.orders.begin(), answer_.orders.end(), [](const AttainedOutcome& x, const AttainedOutcome& y) {
+      return std::tuple(!IsAttained(x), x.orders) < std::tuple(!IsAttained(y), y.orders);
+    });
   }
 
   void AddSprings() {
@@ -254,22 +264,33 @@ class Answerer {
     answer_.stiffness_jumps = std::move(curve.jumps);
   }
 
+  // The part of the velocity that rounding of W leaves beside its range; 0 where it is no more than rounding itself.
+  Eigen::VectorXd BesideRange() const {
+    const Problem& problem = sorted_.problem;
+    const Eigen::VectorXd beside = (problem.v - metric_.g * metric_.y).cwiseAbs();
+    const double rounding = 64.0 * static_cast<double>(beside.size()) * kEpsilon * problem.v.cwiseAbs().maxCoeff();
+    if (beside.maxCoeff() <= rounding) return Eigen::VectorXd::Zero(beside.size());
+    return beside;
+  }
+
   void AddPossible(const Eigen::VectorXd& apart) {
     std::vector<Eigen::VectorXd> gammas;
     for (const Output& output : Outputs()) gammas.push_back(output.gamma);
+    const Eigen::VectorXd beside = BesideRange();
     const std::vector<Range> ranges = FindPossible(sorted_.problem, metric_, apart, gammas, stopped_);
     for (size_t i = 0; i < ranges.size(); ++i) {
       const Output& output = outputs_[i];
       const double before = output.gamma.dot(sorted_.problem.v);
-      const double slack = output.slack * metric_.root_energy +
+      const double slack = output.slack * metric_.root_energy + output.gamma.cwiseAbs().dot(beside) +
                            8.0 * kEpsilon * output.gamma.cwiseAbs().dot(sorted_.problem.v.cwiseAbs());
       const auto end = [&](double bound, double sign) {
         const double value = output.before + v_scale_ * (bound - before + sign * slack);
         return value + sign * 4.0 * kEpsilon * (std::abs(output.before) + std::abs(value));
       };
       // Scaling is exact but for subnormal results, which are moved outwards by the step that they may have lost.
-      const auto scaled = [this](double bound, double outwards) {
-        const double value = v_scale_ * bound;
+      const auto scaled = [&](double bound, double outwards) {
+        const double aside = output.gamma.cwiseAbs().dot(beside);
+        const double value = v_scale_ * (aside == 0.0 ? bound : bound + std::copysign(aside, outwards));
         const bool is_exact = bound == 0.0 || std::abs(value) >= std::numeric_limits<double>::min();
         return is_exact ? value : std::nextafter(value, outwards);
       };

@@ -67,6 +67,8 @@ class SpringFlow {
   double growth_rate() const { return growth_rate_; }
   // How the normal acceleration of contact i depends on the force of contact j.
   double NormalByForce(int i, int j) const { return by_force_(2 * i + 1, j); }
+  // The magnitude of the terms that this is a sum of.
+  double SizeOfNormalByForce(int i, int j) const { return size_(2 * i + 1, j); }
   double TangentialByForce(int i, int j) const { return by_force_(2 * i, j); }
   double FrictionByForce(int i, int j) const { return friction_(i, j); }
 

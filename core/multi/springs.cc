@@ -20,6 +20,8 @@ constexpr double kVelocityRounding = 64.0;
 constexpr int64_t kLeastOfEndless = 12;
 // An error above this part of the velocities' scale is estimated from a second motion beside the first.
 constexpr double kLargeError = 1e-9;
+// After so many steps that change nothing a motion would go round for ever.
+constexpr int kMostRepeated = 4;
 // Combinations of modes that are tried where changing one mode after the other does not settle.
 constexpr int64_t kMostModes = 6561;
 
@@ -29,7 +31,7 @@ class Motion {
  public:
   Motion(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped)
       : problem_(problem), mirror_(mirror), stopped_(stopped), k_(problem.k), result_(StartOf(problem)) {
-    state_.p = Vector::Zero(2 * k_);
+    state_.p = before_.p = tail_ = Vector::Zero(2 * k_);
     roots_ = problem.w.diagonal().cwiseMax(0.0).cwiseSqrt();
     for (int i = 0; i < k_; ++i) modes_[At(i)].normal = NormalMode::kOpen;
   }
@@ -44,7 +46,7 @@ class Motion {
     result_.end = MultiContactEnd::kBudgetUsedUp;
     Settle();
     while (result_.end == MultiContactEnd::kBudgetUsedUp && result_.events < budget && steps_++ < 8 * budget) {
-      if (stopped_() || HasEnded() || TailIsRounding()) break;
+      if (stopped_() || HasEnded() || TailIsRounding() || HasStalled()) break;
       Step();
     }
     return Finish();
@@ -279,7 +281,11 @@ class Motion {
       if (FirstRoot(condition.series, condition.lead) <= s * (1.0 + 0x1p-36)) first = &condition;
     }
     if (first == nullptr && IsStill()) {
-      result_.end = MultiContactEnd::kWedged;
+      if (HoldsItself()) {
+        result_.end = MultiContactEnd::kWedged;
+      } else {
+        EndInTail(BoundTail());
+      }
       return;
     }
     Advance(s);
@@ -317,6 +323,23 @@ class Motion {
       }
       presses = true;
       if (flow_->velocity(2 * i + 1).Lead() <= kSeriesOrder || flow_->velocity(2 * i).Lead() == 1) return false;
+    }
+    return presses;
+  }
+
+  // True if there are forces and they cancel. Those that plastic contacts keep by rounding do not.
+  bool HoldsItself() const {
+    constexpr double kLeft = 0x1p-20;
+    bool presses = false;
+    for (int i = 0; i < k_; ++i) {
+      if (!IsClosed(i)) continue;
+      presses = presses || state_.f[At(i)] > 0.0;
+      double acceleration = 0.0, size = 0.0;
+      for (int j = 0; j < k_; ++j) {
+        acceleration += flow_->NormalByForce(i, j) * state_.f[At(j)];
+        size += flow_->SizeOfNormalByForce(i, j) * state_.f[At(j)];
+      }
+      if (std::abs(acceleration) > kLeft * size) return false;
     }
     return presses;
   }
@@ -443,39 +466,68 @@ class Motion {
     }
   }
 
+  double SpeedOfApproach() const {
+    double speed = 0.0;
+    for (int i = 0; i < k_; ++i) speed = std::max(speed, -Normal(i));
+    return speed;
+  }
+
+  double StoredEnergy() const {
+    double stored = 0.0;
+    for (int i = 0; i < k_; ++i) {
+      if (IsClosed(i)) stored += 0.5 * state_.f[At(i)] * state_.f[At(i)] / flow_->stiffness(i);
+    }
+    return stored;
+  }
+
+  // Sets the most that each velocity can still change. Returns false if nothing bounds that.
+  bool BoundTail() {
+    if (!beta_.has_value()) beta_ = BetaOf(problem_);
+    if (!(*beta_ > 0.0)) return false;
+    const double impulse = ImpulseToCome(*beta_, SpeedOfApproach(), StoredEnergy());
+    for (int row = 0; row < 2 * k_; ++row) {
+      double mobility = 0.0;
+      for (int i = 0; i < k_; ++i) {
+        mobility = std::max(mobility, std::abs(problem_.w(row, 2 * i + 1)) +
+                                          problem_.laws[At(i)].mu * std::abs(problem_.w(row, 2 * i)));
+      }
+      tail_(row) = impulse * mobility;
+    }
+    return true;
+  }
+
+  void EndInTail(bool is_bounded) {
+    if (is_bounded) result_.slack += tail_;
+    if (!is_bounded) result_.error_is_proved = false;
+    result_.end = is_bounded ? MultiContactEnd::kEndless : MultiContactEnd::kEndlessEstimate;
+  }
+
+  bool IsSlow() const { return SpeedOfApproach() <= 1e-9 * problem_.v.cwiseAbs().maxCoeff(); }
+
+  // Ends a motion that goes round in events that change nothing, as rounding may make it do. If it is slow, only
+  // rounding is left of it.
+  bool HasStalled() {
+    const bool is_same =
+        modes_ == modes_before_ && state_.p == before_.p && state_.f == before_.f && state_.g == before_.g;
+    repeated_ = is_same ? repeated_ + 1 : 0;
+    before_ = state_;
+    modes_before_ = modes_;
+    if (repeated_ < kMostRepeated) return false;
+    if (IsSlow()) EndInTail(BoundTail());
+    return true;
+  }
+
   // Ends the motion if what is still to come cannot change more than the rounding of the velocities.
   bool TailIsRounding() {
     if (result_.events < kLeastOfEndless) return false;
-    double speed = 0.0, stored = 0.0, mobility = 0.0;
-    for (int i = 0; i < k_; ++i) {
-      speed = std::max(speed, -Normal(i));
-      if (IsClosed(i)) stored += 0.5 * state_.f[At(i)] * state_.f[At(i)] / flow_->stiffness(i);
-    }
-    if (speed > 1e-9 * problem_.v.cwiseAbs().maxCoeff()) return false;
-    if (!beta_.has_value()) beta_ = BetaOf(problem_);
-    const double beta = *beta_;
-    if (beta > 0.0) {
-      const double impulse = ImpulseToCome(beta, speed, stored);
-      bool is_rounding = true;
-      for (int row = 0; row < 2 * k_; ++row) {
-        mobility = 0.0;
-        for (int i = 0; i < k_; ++i) {
-          mobility = std::max(mobility, std::abs(problem_.w(row, 2 * i + 1)) +
-                                            problem_.laws[At(i)].mu * std::abs(problem_.w(row, 2 * i)));
-        }
-        tail_[At(row)] = impulse * mobility;
-        is_rounding = is_rounding && tail_[At(row)] <= noise_(row);
-      }
-      if (!is_rounding) return false;
-      for (int row = 0; row < 2 * k_; ++row) result_.slack(row) += tail_[At(row)];
-      result_.end = MultiContactEnd::kEndless;
-      return true;
-    }
+    if (!IsSlow()) return false;
+    const bool is_bounded = BoundTail();
     const double rounding = noise_.maxCoeff();
-    if (speed > 4.0 * rounding || std::sqrt(2.0 * stored) * roots_.maxCoeff() > 4.0 * rounding) return false;
-    result_.end = MultiContactEnd::kEndlessEstimate;
-    result_.error_is_proved = false;
-    return true;
+    const bool is_rounding = is_bounded ? (tail_.array() <= noise_.array()).all()
+                                        : SpeedOfApproach() <= 4.0 * rounding &&
+                                              std::sqrt(2.0 * StoredEnergy()) * roots_.maxCoeff() <= 4.0 * rounding;
+    if (is_rounding) EndInTail(is_bounded);
+    return is_rounding;
   }
 
   Attained Finish() {
@@ -510,12 +562,14 @@ class Motion {
   Attained result_;
   SpringState state_;
   Modes modes_{};
-  Vector v_, noise_, roots_;
+  SpringState before_;  // The state and the modes before the last step, and how often in a row they were the same.
+  Modes modes_before_{};
+  int repeated_ = 0;
+  Vector v_, noise_, roots_, tail_;
   std::optional<SpringFlow> flow_;
   std::vector<Condition> conditions_;
   std::optional<Event> event_;  // The condition that is 0 by the event at which the state is.
   std::array<double, kMostContacts> gap_error_{};
-  std::array<double, 2 * kMostContacts> tail_{};
   std::optional<double> beta_;
   double made_ = 0.0;  // The errors of all steps and events, none of them grown.
   int64_t steps_ = 0;

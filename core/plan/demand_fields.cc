@@ -1,5 +1,9 @@
 #include "core/plan/demand_fields.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+
 #include "absl/strings/str_cat.h"
 
 namespace ricochet {
@@ -11,14 +15,19 @@ EffectSet ToSet(const std::vector<Effect>& effects) {
   return set;
 }
 
+std::string NotNamed(int64_t number) { return number == 0 ? "= unspecified" : absl::StrCat("= ", number); }
+
 // Checks the list for an effect that is not named or that is named twice, because a set could not show either.
 void CheckList(const std::vector<Effect>& effects, const char* field, std::vector<Violation>& violations) {
   EffectSet seen;
   for (size_t i = 0; i < effects.size() && !IsFull(violations); ++i) {
     const auto path = [&] { return absl::StrCat(field, "[", i, "]"); };
-    if (effects[i] == Effect::kUnspecified) {
-      violations.push_back(MakeViolation(path(), "= unspecified", "be an effect that is named"));
-    } else if (seen.Has(effects[i])) {
+    if (std::find(std::begin(kEffects), std::end(kEffects), effects[i]) == std::end(kEffects)) {
+      violations.push_back(
+          MakeViolation(path(), NotNamed(static_cast<int64_t>(effects[i])), "be an effect that is named"));
+      continue;
+    }
+    if (seen.Has(effects[i])) {
       violations.push_back(MakeViolation(path(), absl::StrCat("= ", NameOf(effects[i])), "be named once"));
     }
     seen.Add(effects[i]);

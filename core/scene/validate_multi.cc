@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -11,7 +12,9 @@
 #include "core/contact/reduction.h"
 #include "core/contact/symmetric_matrix.h"
 #include "core/scene/check.h"
+#include "core/scene/field.h"
 #include "core/scene/numbers.h"
+#include "core/types/multi_contact.h"
 
 namespace ricochet {
 namespace {
@@ -182,17 +185,22 @@ void CheckSpread(const MultiReduction& reduction, Check& check) {
   }
 }
 
-// The velocities of bodies lie in the range of their W, unless it has lost the larger masses to rounding.
+// The velocities of bodies and mechanisms lie in the range of their W, up to what rounding makes of W where masses
+// differ much. Bounds of possible outcomes allow for that much. Beyond it W has lost the larger masses.
 void CheckRange(const std::string& field, const MultiReduction& reduction, const Eigen::VectorXd& velocity,
-                Check& check) {
+                bool is_derived, Check& check) {
+  const double most = is_derived ? 0x1p-20 : 64.0 * static_cast<double>(reduction.w.rows()) * kEpsilon;
   const Eigen::VectorXd sizes = reduction.jacobian.cwiseAbs() * velocity.cwiseAbs();
   const double outside = DistanceFromRange(reduction.w, reduction.ContactVelocity(velocity), sizes);
-  check.Require(outside <= 64.0 * static_cast<double>(reduction.w.rows()) * kEpsilon, [&] {
+  check.Require(outside <= most, [&] {
     const std::string share = std::isfinite(outside) ? absl::StrCat("a share of ", ShortestDecimal(outside)) : "a part";
     return MakeViolation(field, absl::StrCat("has ", share, " beside the range of W"),
                          "lie in it, no impulse changes the rest");
   });
 }
+
+// True if W is computed from masses.
+bool IsDerived(const MultiContactScene& scene) { return !std::holds_alternative<ContactMatrix>(scene.system); }
 
 // Names the field that a scene states its velocity with.
 struct VelocityField {
@@ -223,11 +231,14 @@ void CheckMethods(const MultiContactRequest& request, int directions, Check& che
   });
   check.Number(NumberPath{"stiffness_range", -1, "low"}, range.low, NumberRule::kPositive);
   check.Number(NumberPath{"stiffness_range", -1, "high"}, range.high, NumberRule::kPositive);
-  check.Require(!(range.low > 0.0) || (range.high > range.low && range.high / range.low <= kMostStiffnessRatio), [&] {
-    return MakeViolation("stiffness_range.high", range.high,
-                         absl::StrCat("be above low and at most ", ShortestDecimal(kMostStiffnessRatio), " times it"),
-                         {"stiffness_range.low"});
-  });
+  check.Require(!(range.low > 0.0 && range.high > 0.0) ||
+                    (range.high > range.low && range.high / range.low <= kMostStiffnessRatio),
+                [&] {
+                  return MakeViolation(
+                      "stiffness_range.high", range.high,
+                      absl::StrCat("be above low and at most ", ShortestDecimal(kMostStiffnessRatio), " times it"),
+                      {"stiffness_range.low"});
+                });
 }
 
 // Returns whether the list keeps the rules.
@@ -248,12 +259,18 @@ void CheckLists(const MultiContactRequest& request, const MultiReduction& reduct
   for (size_t i = 0; i < request.states.size() && !check.IsFull(); ++i) {
     if (!CheckList(Entry("states", i, "velocity"), request.states[i].velocity, size, check)) continue;
     const Eigen::Map<const Eigen::VectorXd> velocity(request.states[i].velocity.data(), reduction.velocity.size());
-    CheckRange(Entry("states", i, "velocity"), reduction, velocity, check);
+    CheckRange(Entry("states", i, "velocity"), reduction, velocity, IsDerived(request.scene), check);
   }
+  const int directions = reduction.directions;
+  std::set<std::string> names;
+  for (const std::string& name : ContactOutputNames(request.scene.contacts.size(), directions)) names.insert(name);
+  for (const std::string& name : SystemOutputNames(request.scene.system, directions)) names.insert(name);
   for (size_t i = 0; i < request.outputs.size() && !check.IsFull(); ++i) {
     CheckList(Entry("outputs", i, "coefficients"), request.outputs[i].coefficients, size, check);
-    check.Require(!request.outputs[i].name.empty(),
-                  [&] { return MakeViolation(Entry("outputs", i, "name"), "is empty", "not be"); });
+    const std::string& name = request.outputs[i].name;
+    check.Require(!name.empty(), [&] { return MakeViolation(Entry("outputs", i, "name"), "is empty", "not be"); });
+    check.Require(names.insert(name).second,
+                  [&] { return MakeViolation(Entry("outputs", i, "name"), Found(name), "not name another output"); });
   }
 }
 
@@ -303,7 +320,9 @@ std::vector<Violation> Validate(const MultiContactRequest& request, std::optiona
     const auto* const matrix = std::get_if<ContactMatrix>(&scene.system);
     if (matrix != nullptr) CheckMatrix(*matrix, *reduction, check);
     CheckSpread(*reduction, check);
-    if (!check.failed()) CheckRange(std::visit(VelocityField(), scene.system), *reduction, reduction->velocity, check);
+    if (!check.failed()) {
+      CheckRange(std::visit(VelocityField(), scene.system), *reduction, reduction->velocity, IsDerived(scene), check);
+    }
   }
   if (reduction->w.allFinite()) CheckLists(request, *reduction, check);
   return std::move(check).violations();

@@ -1,5 +1,7 @@
 #include "core/types/check_rows.h"
 
+#include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,43 @@ void CheckLengths(const char* list, const Columns& columns, size_t rows, std::ve
   }
 }
 
+// A column of the caller's memory, named by its list and its place in it.
+struct Memory {
+  const char* list;
+  size_t place;
+  const void* begin;
+  const void* end;
+  bool Overlaps(const Memory& other) const {
+    const std::less<const void*> before;
+    return before(begin, other.end) && before(other.begin, end);
+  }
+};
+
+template <typename Columns>
+std::vector<Memory> MemoriesOf(const char* list, const Columns& columns) {
+  std::vector<Memory> memories;
+  for (size_t i = 0; i < columns.size(); ++i) {
+    memories.push_back(
+        {.list = list, .place = i, .begin = columns[i].data(), .end = columns[i].data() + columns[i].size()});
+  }
+  return memories;
+}
+
+// An output is written before all inputs of its rows are read.
+void CheckApart(const BatchRows& rows, std::vector<Violation>& violations) {
+  std::vector<Memory> others = MemoriesOf("inputs", rows.inputs);
+  for (const Memory& output : MemoriesOf("outputs", rows.outputs)) {
+    const auto shared =
+        std::find_if(others.begin(), others.end(), [&output](const Memory& other) { return output.Overlaps(other); });
+    if (shared != others.end() && !IsFull(violations)) {
+      violations.push_back(MakeViolation(absl::StrCat("outputs[", output.place, "]"),
+                                         absl::StrCat("overlaps ", shared->list, "[", shared->place, "]"),
+                                         "share no memory with another column"));
+    }
+    others.push_back(output);
+  }
+}
+
 }  // namespace
 
 absl::Status CheckRows(const BatchRows& rows, size_t fields, size_t columns) {
@@ -47,6 +86,7 @@ absl::Status CheckRows(const BatchRows& rows, size_t fields, size_t columns) {
   };
   check("regimes", rows.regimes.size());
   check("statuses", rows.statuses.size());
+  CheckApart(rows, violations);
   return violations.empty() ? absl::OkStatus() : InvalidRequest(violations);
 }
 

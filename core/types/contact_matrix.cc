@@ -22,7 +22,11 @@ absl::Status CheckSymmetric(std::span<const double> w, size_t rows, std::string_
     for (size_t j = i + 1; j < rows; ++j) {
       const double upper = w[i * rows + j];
       const double lower = w[j * rows + i];
-      // NaN is left to the rules of the contact.
+      // The rules of the contact see the entries on the diagonal and above it alone.
+      if (!std::isfinite(lower)) {
+        violations.push_back(MakeViolation(absl::StrCat("w_per_kg[", j, "][", i, "]"), lower, "be finite"));
+        continue;
+      }
       if (!(std::fabs(upper - lower) > kSymmetric * largest)) continue;
       violations.push_back(MakeViolation(
           absl::StrCat("w_per_kg[", j, "][", i, "]"), lower,

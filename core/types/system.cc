@@ -3,7 +3,7 @@
 namespace ricochet {
 
 size_t TangentialDirections(const Mechanism& mechanism) {
-  return mechanism.jacobian.size() == 3 * mechanism.rates.size() ? 2 : 1;
+  return !mechanism.rates.empty() && mechanism.jacobian.size() == 3 * mechanism.rates.size() ? 2 : 1;
 }
 
 bool HoldsCoordinates(const System& system) {

@@ -66,6 +66,14 @@ TEST(ClientOptions, AreRefusedAllAtOnceByName) {
                           Violation{"retry.multiplier", "= 0.5: must be finite and >= 1"}));
 }
 
+TEST(ClientOptionsTest, AUserAgentIsPrintable) {
+  for (const std::string& agent : {std::string("x\ny"), std::string(1, '\0'), std::string(257, 'x')}) {
+    const absl::Status status = Client::Connect({.target = "localhost:1", .user_agent = agent}).status();
+    ASSERT_EQ(ViolationsOf(status).size(), 1U);
+    EXPECT_EQ(ViolationsOf(status)[0].field, "user_agent");
+  }
+}
+
 TEST(ServiceConfig, IsTheJsonThatGrpcReads) {
   ClientOptions options{.target = "localhost:1"};
   options.retry = {

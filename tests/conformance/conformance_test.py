@@ -256,6 +256,10 @@ class Grades(unittest.TestCase):
                 ({'answers': [row], 'simulator': 5}, 'must be a text'),
                 ({'answers': [{**row, 'law': 'newton'}], 'law': 'Moreau'}, 'must be'),
                 ('# Nothing.\n', 'header'),
+                ('case,law,velocity_after\n"pendulum-2-paper",newton,"1\n', 'in quotes that does not end'),
+                ('case,law,velocity_after\n"pendulum-2-\npaper",newton,1\n', ''),
+                ('case,law,velocity_after\npendulum-2-paper,newton,\u00a01\n', 'must '),
+                ('{"simulator": "\\ud800", "answers": [{"case": "pendulum-2-paper", "velocity_after": [1]}]}', ''),
                 *((f'case,law,velocity_after\npendulum-2-paper,newton,{x}\n', 'must ')
                   for x in ('1_0', '\u0663', '1e400', '1e-400', '1/0', '0x1', '')),
                 ({'answers': [{**row, 'case': 'rod-jam'}]}, 'did you mean rod-jams?'),

@@ -22,7 +22,7 @@ double Number(Eigen::Index i, Eigen::Index j) { return std::sin(static_cast<doub
 ricochet::Mechanism MechanismOf(int seed, const MatrixXd& mass) {
   const MatrixXd jacobian = MatrixXd::NullaryExpr(3, kSize, [seed](auto i, auto j) { return Number(i + seed, j); });
   const VectorXd rates = 0.5 * jacobian.row(0) - jacobian.row(2);
-  return ricochet::MechanismFrom(mass, jacobian, rates);
+  return *ricochet::MechanismFrom(mass, jacobian, rates);
 }
 
 }  // namespace

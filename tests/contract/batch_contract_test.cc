@@ -232,6 +232,18 @@ TEST_P(BatchContract, ASetupWithoutFieldsOrColumnsOrWithAFieldTwiceIsRefused) {
   EXPECT_THAT(violations[0].description, HasSubstr("which fields[0] drives"));
 }
 
+TEST_P(BatchContract, OutputsThatShareMemoryAreRefused) {
+  Table table({{1, 2}, {-1, -2}, {0.1, 0.2}}, 2);
+  BatchRows rows = table.Rows();
+  rows.outputs[1] = absl::MakeSpan(const_cast<double*>(rows.inputs[2].data()), 2);
+  EXPECT_THAT(ViolationsOf(solver().SolveBatch(Contacts(), rows).status()),
+              ElementsAre(Violation{"outputs[1]", "overlaps inputs[2]: must share no memory with another column"}));
+  rows = table.Rows();
+  rows.outputs[1] = rows.outputs[0];
+  EXPECT_THAT(ViolationsOf(solver().SolveBatch(Contacts(), rows).status()),
+              ElementsAre(Violation{"outputs[1]", "overlaps outputs[0]: must share no memory with another column"}));
+}
+
 TEST_P(BatchContract, ColumnsThatDoNotFitAreNamed) {
   Table table({{1, 2}, {-1}, {0.1, 0.2}}, 2);
   table.out[1].resize(3);

@@ -274,9 +274,21 @@ TEST_P(SolverContract, EveryMethodEndsOnceItsOptionsSayStop) {
 }
 
 TEST_P(SolverContract, EveryMethodEndsAtItsDeadline) {
-  const CallOptions options = {.deadline = std::chrono::steady_clock::now() - std::chrono::seconds(1)};
-  for (const absl::Status& status : CallEach(solver(), options)) {
-    EXPECT_EQ(status.code(), absl::StatusCode::kDeadlineExceeded) << status;
+  const auto now = std::chrono::steady_clock::now();
+  for (const auto past : {now - std::chrono::seconds(1), std::chrono::steady_clock::time_point::min()}) {
+    for (const absl::Status& status : CallEach(solver(), {.deadline = past})) {
+      EXPECT_EQ(status.code(), absl::StatusCode::kDeadlineExceeded) << status;
+    }
+  }
+}
+
+TEST_P(SolverContract, NumbersThatNameNoEffectAreRefused) {
+  for (const int number : {9, 33, 77, -5}) {
+    SolveRequest request = {.scene = With(PlanarContact{2.5, 1.5, 2.5, -1.0, -1.0})};
+    request.demand.excluded = {static_cast<Effect>(number)};
+    EXPECT_EQ(solver().Solve(request).status().code(), absl::StatusCode::kInvalidArgument) << number;
+    request.demand = {.required = {static_cast<Effect>(number)}};
+    EXPECT_EQ(solver().Solve(request).status().code(), absl::StatusCode::kInvalidArgument) << number;
   }
 }
 

@@ -61,7 +61,8 @@ const std::set<std::string>& KeepersOfThreads() {
 }
 
 const std::set<std::string>& HeadersOfThreads() {
-  static const std::set<std::string> headers = {"atomic", "condition_variable", "mutex", "thread"};
+  static const std::set<std::string> headers = {"atomic",  "condition_variable", "mutex", "sys/types.h", "thread",
+                                                "unistd.h"};
   return headers;
 }
 

@@ -15,8 +15,8 @@
 
 namespace {
 
-ricochet::Mechanism AtContact(const mjModel* model, mjData* data, int body, const mjtNum point[3],
-                              const Eigen::Matrix3d& axes) {
+absl::StatusOr<ricochet::Mechanism> AtContact(const mjModel* model, mjData* data, int body, const mjtNum point[3],
+                                              const Eigen::Matrix3d& axes) {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Rows mass(model->nv, model->nv), jacobian(3, model->nv);
   mj_forward(model, data);
@@ -51,7 +51,7 @@ struct Robot {
     const Eigen::Map<const Eigen::Vector3d> origin(data->xpos + 3 * body);
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> turn(data->xmat + 9 * body);
     const Eigen::Vector3d point = origin + turn * reach;
-    return AtContact(model.get(), data.get(), body, point.data(), axes);
+    return *AtContact(model.get(), data.get(), body, point.data(), axes);
   }
   std::unique_ptr<mjModel, Delete> model;
   std::unique_ptr<mjData, Delete> data;

@@ -65,13 +65,14 @@ absl::Status ReadRow(const CsvReader& reader, const std::vector<std::string>& ce
     return absl::InvalidArgumentError(absl::StrCat("--data, line ", reader.line(), ": ", column, " ", what));
   };
   if (reader.ends_in_quotes()) return wrong("the row", kOpenQuotes);
-  if (cells.size() > columns.size()) {
-    return wrong("the row", absl::StrCat("has ", cells.size(), " cells: must have ", columns.size()));
+  if (cells.size() != columns.size()) {
+    return wrong("the row", absl::StrCat("has ", cells.size(), " cells: must have ", columns.size(),
+                                         "; what was not measured has an empty cell"));
   }
   for (size_t i = 0; i < columns.size(); ++i) {
     if (!columns[i].has_value()) continue;
     double value = std::numeric_limits<double>::quiet_NaN();
-    const std::string cell = i < cells.size() ? cells[i] : "";
+    const std::string& cell = cells[i];
     const std::string rule = cell.empty() ? "" : ReadNumber(cell, SpellingOf(columns[i]->path), value);
     if (!rule.empty()) return wrong(reader.header()[i], absl::StrCat("= \"", absl::CEscape(cell), "\": must ", rule));
     if (cell.empty() && columns[i]->use == Column::Use::kInput) return wrong(reader.header()[i], "is missing");

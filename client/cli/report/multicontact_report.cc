@@ -48,6 +48,15 @@ std::string WithUnit(const std::string& name, double value) {
   return absl::StrCat(Rounded(value), unit.empty() ? "" : " ", unit);
 }
 
+// True if an outcome is known to its end.
+bool HasEnded(const MultiContactAnswer& answer) {
+  const auto ended = [](const AttainedOutcome& outcome) {
+    return outcome.end != MultiContactEnd::kBudgetUsedUp && outcome.end != MultiContactEnd::kUndetermined;
+  };
+  return std::any_of(answer.orders.begin(), answer.orders.end(), ended) ||
+         (answer.springs.has_value() && ended(*answer.springs));
+}
+
 std::string VerdictText(const MultiContactAnswer& answer) {
   const bool are_orders = answer.outcome_1 != kSprings && answer.outcome_2 != kSprings;
   const std::string difference = absl::StrCat(
@@ -66,7 +75,8 @@ std::string VerdictText(const MultiContactAnswer& answer) {
     case MultiContactVerdict::kUnspecified:
       break;
   }
-  return "Undecided: the outcomes found are alike, but some could not be found.\n";
+  return HasEnded(answer) ? "Undecided: the outcomes that ended are alike, but others could not be found.\n"
+                          : "Undecided: no outcome was followed to its end.\n";
 }
 
 // Every outcome with its name, those of orders first.
@@ -93,8 +103,17 @@ std::vector<double> Shown(const AttainedOutcome& outcome) {
   return outcome.velocity.empty() ? outcome.contact_velocity_m_s : outcome.velocity;
 }
 
+// The outcomes that the text shows: the first, and springs in any case.
+std::vector<std::pair<std::string, const AttainedOutcome*>> ShownOutcomes(const MultiContactAnswer& answer) {
+  auto outcomes = OutcomesOf(answer);
+  if (outcomes.size() <= kMostRows) return outcomes;
+  if (answer.springs.has_value()) std::swap(outcomes[kMostRows - 1], outcomes.back());
+  outcomes.resize(kMostRows);
+  return outcomes;
+}
+
 std::string OutcomesText(const MultiContactRequest& request, const MultiContactAnswer& answer) {
-  const auto outcomes = OutcomesOf(answer);
+  const auto outcomes = ShownOutcomes(answer);
   if (outcomes.empty()) return "";
   const AttainedOutcome& first = *outcomes.front().second;
   const std::vector<std::string> names = OutputNames(request, first);
@@ -103,17 +122,15 @@ std::string OutcomesText(const MultiContactRequest& request, const MultiContactA
   header.emplace_back("error");
   Table table;
   table.Add(header);
-  for (size_t i = 0; i < std::min(outcomes.size(), kMostRows); ++i) {
-    const auto& [name, outcome] = outcomes[i];
+  for (const auto& [name, outcome] : outcomes) {
     std::vector<std::string> row = {name, EndText(outcome->end), absl::StrCat(outcome->events)};
     for (const double value : Shown(*outcome)) row.push_back(Rounded(value));
     row.push_back(absl::StrFormat("%s%.1e", outcome->error_is_proved ? "<= " : "about ", LargestError(*outcome)));
     table.Add(row);
   }
   std::string text = absl::StrCat("\nOutcomes (velocities after, m/s and rad/s)\n", table.Render(2));
-  if (outcomes.size() > kMostRows) {
-    absl::StrAppend(&text, "  and ", outcomes.size() - kMostRows, " more: --format json has all\n");
-  }
+  const size_t all = answer.orders.size() + (answer.springs.has_value() ? 1 : 0);
+  if (all > outcomes.size()) absl::StrAppend(&text, "  and ", all - outcomes.size(), " more: --format json has all\n");
   return text;
 }
 
@@ -121,18 +138,17 @@ std::string LedgerText(const MultiContactAnswer& answer) {
   Table table;
   table.Add({"", "contact", "normal impulse [N s]", "compression [J]", "restitution [J]", "friction [J]", "Newton",
              "Poisson"});
-  const auto outcomes = OutcomesOf(answer);
-  for (size_t i = 0; i < std::min(outcomes.size(), kMostRows); ++i) {
-    const AttainedOutcome& outcome = *outcomes[i].second;
+  const auto outcomes = ShownOutcomes(answer);
+  for (const auto& [name, shown] : outcomes) {
+    const AttainedOutcome& outcome = *shown;
     const size_t directions =
         outcome.contacts.empty() ? 2 : outcome.contact_velocity_m_s.size() / outcome.contacts.size();
     const auto cell = [](std::optional<double> value) { return value.has_value() ? Rounded(*value) : ""; };
     for (size_t c = 0; c < outcome.contacts.size(); ++c) {
       const ContactLedger& ledger = outcome.contacts[c];
-      table.Add({c == 0 ? outcomes[i].first : "", absl::StrCat(c + 1),
-                 Rounded(outcome.impulse_n_s[directions * (c + 1) - 1]), Rounded(ledger.work_compression_j),
-                 Rounded(ledger.work_restitution_j), Rounded(ledger.work_friction_j), cell(ledger.newton),
-                 cell(ledger.poisson)});
+      table.Add({c == 0 ? name : "", absl::StrCat(c + 1), Rounded(outcome.impulse_n_s[directions * (c + 1) - 1]),
+                 Rounded(ledger.work_compression_j), Rounded(ledger.work_restitution_j),
+                 Rounded(ledger.work_friction_j), cell(ledger.newton), cell(ledger.poisson)});
     }
   }
   return outcomes.empty() ? "" : absl::StrCat("\nWhat each contact did\n", table.Render(2));
@@ -211,8 +227,7 @@ void AddOutcome(const MultiContactRequest& request, size_t state, const std::str
   std::vector<std::string> impulses(names.begin(),
                                     names.begin() + static_cast<std::ptrdiff_t>(outcome.contact_velocity_m_s.size()));
   AddNumbers(impulses, ".impulse_n_s", outcome.impulse_n_s, row);
-  row.Number("energy_change_j",
-             is_outcome && !outcome.contacts.empty() ? std::optional(outcome.energy_change_j) : std::nullopt);
+  row.Number("energy_change_j", is_outcome ? std::optional(outcome.energy_change_j) : std::nullopt);
   std::vector<std::string> functions;
   for (const LinearOutput& output : request.outputs) AppendCsv(output.name, functions.emplace_back());
   AddNumbers(functions, "", asked, row);

@@ -21,7 +21,8 @@ namespace ricochet {
 // time.
 //
 // Cost: a Client is a shared pointer; its copies share one connection, which is made at the first call. Connect is
-// expensive, so make one Client for each server and copy it. A sweep keeps only one chunk in memory.
+// expensive, so make one Client for each server and copy it. A sweep keeps only one chunk in memory. A Client, a
+// session or a stream that was moved from can only be destroyed or assigned to.
 //
 // Retries: ClientOptions::retry says how often a call is repeated, here and on the other servers of the list. Calls
 // have no side effects, so a repeated one does no harm. A sweep that breaks off is taken up again at its next point;

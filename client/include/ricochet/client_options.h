@@ -60,7 +60,7 @@ struct ClientOptions {
   RetryPolicy retry;
   std::optional<FanOut> fan_out;  // Present: the servers of the list compute a sweep together, not one after another.
   SecurityOptions security;
-  std::string user_agent;  // Text that every call puts before gRPC's own user agent.
+  std::string user_agent;  // Every call puts it before gRPC's own user agent. At most 256 printable ASCII characters.
 };
 
 // Checks the rules above. Errors: INVALID_ARGUMENT that names every option that breaks one.

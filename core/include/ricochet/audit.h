@@ -21,7 +21,7 @@ namespace ricochet {
 // pendulum (one) or of a linkage (one for each link). std::monostate means that the request stated neither, which is a
 // violation.
 struct ObservedRates {
-  Components rates_rad_s;
+  Components rates_rad_s = {};
   friend bool operator==(const ObservedRates&, const ObservedRates&) = default;
 };
 using Observed = std::variant<std::monostate, ContactVelocity, ObservedRates>;
@@ -34,15 +34,15 @@ inline constexpr int64_t kMostAuditRows = 8192;
 // they, have the columns of the second tangential direction. Velocities are those of the contact relative to the
 // surface; a pendulum or a linkage may state its rates after the impact in place of the velocities after it.
 struct AuditColumns {
-  std::vector<double> tangential_m_s;  // Velocity before the impact; an empty column leaves that of the scene.
-  std::vector<double> tangential_2_m_s;
-  std::vector<double> normal_m_s;
-  std::vector<double> tangential_after_m_s;
-  std::vector<double> tangential_2_after_m_s;
-  std::vector<double> normal_after_m_s;
-  std::vector<double> friction;  // Both coefficients of friction; empty means the scene's, at each approach speed.
-  std::vector<double> velocity_uncertainty_m_s;        // Empty means 0.
-  std::vector<std::vector<double>> rates_after_rad_s;  // One column for each link; a pendulum has one.
+  std::vector<double> tangential_m_s = {};  // Velocity before the impact; an empty column leaves that of the scene.
+  std::vector<double> tangential_2_m_s = {};
+  std::vector<double> normal_m_s = {};
+  std::vector<double> tangential_after_m_s = {};
+  std::vector<double> tangential_2_after_m_s = {};
+  std::vector<double> normal_after_m_s = {};
+  std::vector<double> friction = {};  // Both coefficients of friction; empty means the scene's, at each approach speed.
+  std::vector<double> velocity_uncertainty_m_s = {};        // Empty means 0.
+  std::vector<std::vector<double>> rates_after_rad_s = {};  // One column for each link; a pendulum has one.
   friend bool operator==(const AuditColumns&, const AuditColumns&) = default;
 };
 

@@ -4,7 +4,7 @@
 //                       .fields = {"planar_contact.tangential_m_s", "planar_contact.normal_m_s"},
 //                       .columns = {"contact_velocity_after.normal_m_s"}};
 //   absl::StatusOr<BatchSession> session = solver.OpenBatches(setup);
-//   for (...) session->Solve({.inputs = {u, v}, .outputs = {v1}});  // A step of a simulation.
+//   for (...) session->Solve({.inputs = {u, v}, .outputs = {absl::MakeSpan(v1)}});  // A step of a simulation.
 //
 // Each row gets the bits that a Solve of its scene gives, whatever other rows there are.
 
@@ -31,20 +31,21 @@ namespace ricochet {
 
 // The part of a batch that all its rows share.
 struct BatchSetup {
-  Scene scene;                       // Gives every field that no column states.
-  std::vector<std::string> fields;   // Path of each input column, spelled as for an axis of a sweep. At least one.
-  std::vector<std::string> columns;  // Path of each output column, as for a sweep. At least one, no two equal.
-  DemandFields demand;               // Demand on every row; each row gets its own plan.
+  Scene scene = {};                       // Gives every field that no column states.
+  std::vector<std::string> fields = {};   // Path of each input column, spelled as for an axis of a sweep. At least one.
+  std::vector<std::string> columns = {};  // Path of each output column, as for a sweep. At least one, no two equal.
+  DemandFields demand = {};               // Demand on every row; each row gets its own plan.
   friend bool operator==(const BatchSetup&, const BatchSetup&) = default;
 };
 
-// Rows in memory of the caller. The number of rows is the length of every column.
+// Rows in memory of the caller. The number of rows is the length of every column. No output may share memory with
+// another column.
 struct BatchRows {
-  std::vector<absl::Span<const double>> inputs;  // One for each field of the setup.
+  std::vector<absl::Span<const double>> inputs = {};  // One for each field of the setup.
   // One for each column; receives quiet NaN in a row without numbers, and where the outcome leaves the number unset.
-  std::vector<absl::Span<double>> outputs;
-  absl::Span<Regime> regimes;      // Empty, or receives the regime of each row; kInvalid without numbers.
-  absl::Span<RowStatus> statuses;  // Empty, or receives the status of each row.
+  std::vector<absl::Span<double>> outputs = {};
+  absl::Span<Regime> regimes = {};      // Empty, or receives the regime of each row; kInvalid without numbers.
+  absl::Span<RowStatus> statuses = {};  // Empty, or receives the status of each row.
 };
 
 // A row without numbers, and the first reason why it has none.

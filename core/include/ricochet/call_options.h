@@ -1,8 +1,9 @@
 // CallOptions: how the caller of a Solver ends a call before its answer is complete.
 //
 // A call that is ended early answers nothing but an error, a sweep nothing but an error after the chunks already sent.
-// A LocalSolver looks at the options between pieces of work that take a few milliseconds at most. Default options never
-// end a call.
+// A LocalSolver looks at the options between pieces of work that take a few milliseconds at most. The reduction of a
+// mechanism of n coordinates, or of a linkage of n links, is one piece: it takes 0.1 s for n = 1000, and 8 times as
+// long for each doubling of n. Default options never end a call.
 
 #ifndef RICOCHET_CALL_OPTIONS_H_
 #define RICOCHET_CALL_OPTIONS_H_

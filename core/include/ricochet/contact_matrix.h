@@ -2,9 +2,10 @@
 //
 // W is 2 x 2 with rows t and n in a plane, and 3 x 3 with rows t1, t2 and n in space, row by row, 1/kg. `frame` names
 // the axes in an error, such as "world axes rotated by R".
-// Errors: INVALID_ARGUMENT names the two entries that differ, where W is not symmetric to 1e-9 of its diagonal. Smaller
-// differences are those of a sum in another order, and the entry above the diagonal is taken. All other rules are those
-// of PlanarContact and SpatialContact (ricochet/system.h), which the solver checks.
+// Errors: INVALID_ARGUMENT names an entry below the diagonal that is not finite, and the two entries that differ, where
+// W is not symmetric to 1e-9 of its diagonal. Smaller differences are those of a sum in another order, and the entry
+// above the diagonal is taken. All other rules are those of PlanarContact and SpatialContact (ricochet/system.h), which
+// the solver checks.
 
 #ifndef RICOCHET_CONTACT_MATRIX_H_
 #define RICOCHET_CONTACT_MATRIX_H_

@@ -40,15 +40,15 @@ inline constexpr int32_t kDefaultCostSamples = 21;
 inline constexpr int64_t kCostBatch = 1000;
 
 struct CostRequest {
-  Scene scene;
+  Scene scene = {};
   // Time for the whole study, s, in [kLeastCostTimeLimitS, kMostCostTimeLimitS]; absent means kDefaultCostTimeLimitS.
   // Methods that it leaves no time for are answered as CostStatus::kOutOfTime.
-  std::optional<double> time_limit_s;
+  std::optional<double> time_limit_s = {};
   // Samples taken of each time, in [1, kMostCostSamples]; absent means kDefaultCostSamples. A slow method gets fewer,
   // so that every method has its share of the time.
-  std::optional<int32_t> samples;
+  std::optional<int32_t> samples = {};
   // Several contacts at once, in place of `scene`, which then states nothing.
-  std::optional<MultiContactScene> multi_contact;
+  std::optional<MultiContactScene> multi_contact = {};
   friend bool operator==(const CostRequest&, const CostRequest&) = default;
 };
 

@@ -1,10 +1,11 @@
 // Eigen: mechanisms and contacts from the matrices of a program that uses Eigen. Nothing else of Ricochet shows Eigen,
 // so only a program that includes this header needs it.
 //
-// MechanismFrom takes M (n x n), J (2 x n, rows t and n, or 3 x n, rows t1, t2 and n) and q' (n) and only copies them:
-// the solver checks them, and its errors name an entry by its place in ricochet::Mechanism. A library that fills one
-// triangle of M alone must fill the other one first: M.triangularView<Eigen::StrictlyLower>() = M.transpose().
-// InFrame turns a Jacobian in world axes (3 x n) into those of the contact: the rows of `axes` are t1, t2 and n.
+// MechanismFrom takes M (n x n), J (2 x n, rows t and n, or 3 x n, rows t1, t2 and n) and q' (n). It checks their
+// shapes; the solver checks their entries, and its errors name one by its place in ricochet::Mechanism. A library that
+// fills one triangle of M alone must fill the other one first: M.triangularView<Eigen::StrictlyLower>() =
+// M.transpose(). InFrame turns a Jacobian in world axes (3 x n) into those of the contact: the rows of `axes` are t1,
+// t2 and n.
 
 #ifndef RICOCHET_EIGEN_H_
 #define RICOCHET_EIGEN_H_
@@ -12,17 +13,22 @@
 #include <Eigen/Core>
 #include <array>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
 #include "ricochet/contact_matrix.h"
+#include "ricochet/error.h"
 #include "ricochet/outcome.h"
 #include "ricochet/system.h"
 
 namespace ricochet {
 
-inline Mechanism MechanismFrom(const Eigen::Ref<const Eigen::MatrixXd>& mass_matrix,
-                               const Eigen::Ref<const Eigen::MatrixXd>& jacobian,
-                               const Eigen::Ref<const Eigen::VectorXd>& rates) {
+// Errors: INVALID_ARGUMENT that names the matrices whose shapes do not fit.
+inline absl::StatusOr<Mechanism> MechanismFrom(const Eigen::Ref<const Eigen::MatrixXd>& mass_matrix,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& jacobian,
+                                               const Eigen::Ref<const Eigen::VectorXd>& rates) {
   const auto row_by_row = [](const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
     std::vector<double> entries;
     entries.reserve(static_cast<size_t>(matrix.size()));
@@ -31,9 +37,20 @@ inline Mechanism MechanismFrom(const Eigen::Ref<const Eigen::MatrixXd>& mass_mat
     }
     return entries;
   };
-  return {.mass_matrix = row_by_row(mass_matrix),
-          .jacobian = row_by_row(jacobian),
-          .rates = {rates.data(), rates.data() + rates.size()}};
+  const Eigen::Index n = rates.size();
+  std::vector<Violation> violations;
+  const auto require = [&](bool holds, const char* field, const auto& matrix, const std::string& shape) {
+    if (holds) return;
+    violations.push_back(
+        {field, absl::StrCat("is ", matrix.rows(), " x ", matrix.cols(), ": must be ", shape, " for ", n, " rates")});
+  };
+  require(mass_matrix.rows() == n && mass_matrix.cols() == n, "mechanism.mass_matrix", mass_matrix,
+          absl::StrCat(n, " x ", n));
+  require(jacobian.cols() == n, "mechanism.jacobian", jacobian, absl::StrCat("2 x ", n, " or 3 x ", n));
+  if (!violations.empty()) return InvalidRequest(violations);
+  return Mechanism{.mass_matrix = row_by_row(mass_matrix),
+                   .jacobian = row_by_row(jacobian),
+                   .rates = {rates.data(), rates.data() + rates.size()}};
 }
 
 inline Eigen::MatrixXd InFrame(const Eigen::Matrix3d& axes, const Eigen::Ref<const Eigen::MatrixXd>& jacobian) {

@@ -30,25 +30,25 @@ inline constexpr double kFitRefusedBelow = 1e-3;
 
 // A number of the scene that the fit finds.
 struct FitUnknown {
-  std::string path;             // Spelled as for an axis of a sweep: "friction.kinetic_coefficient".
-  std::optional<double> start;  // Where the search starts, in [low, high]; absent: the scene's own number.
-  std::optional<double> low;    // Bounds; absent: those that the number has by its rule, such as 0 for friction.
-  std::optional<double> high;
+  std::string path = {};             // Spelled as for an axis of a sweep: "friction.kinetic_coefficient".
+  std::optional<double> start = {};  // Where the search starts, in [low, high]; absent: the scene's own number.
+  std::optional<double> low = {};    // Bounds; absent: those that the number has by its rule, such as 0 for friction.
+  std::optional<double> high = {};
   friend bool operator==(const FitUnknown&, const FitUnknown&) = default;
 };
 
 // A number of the scene that differs from row to row.
 struct FitInput {
-  std::string path;            // Spelled as for an axis of a sweep; no unknown.
-  std::vector<double> values;  // Finite; one for each row, or one for all.
+  std::string path = {};            // Spelled as for an axis of a sweep; no unknown.
+  std::vector<double> values = {};  // Finite; one for each row, or one for all.
   friend bool operator==(const FitInput&, const FitInput&) = default;
 };
 
 // A number of the outcome that was measured.
 struct FitMeasured {
-  std::string path;            // Spelled as a column of a sweep: "contact_velocity_after.normal_m_s".
-  std::vector<double> values;  // One for each row; NaN where it was not measured.
-  std::vector<double> sigma;   // > 0; one for each row, or one for all.
+  std::string path = {};            // Spelled as a column of a sweep: "contact_velocity_after.normal_m_s".
+  std::vector<double> values = {};  // One for each row; NaN where it was not measured.
+  std::vector<double> sigma = {};   // > 0; one for each row, or one for all.
   friend bool operator==(const FitMeasured&, const FitMeasured&) = default;
 };
 
@@ -68,15 +68,15 @@ inline constexpr int32_t kFitIterations = 100, kMostFitIterations = 10'000;
 inline constexpr double kHuberScale = 1.345, kCauchyScale = 2.385;
 
 struct FitRequest {
-  Scene scene;                       // Gives every number that is neither unknown nor an input.
-  std::vector<FitUnknown> unknowns;  // At least one.
-  std::vector<FitInput> inputs;
-  std::vector<FitMeasured> measured;  // At least one, with as many measured numbers as there are unknowns or more.
+  Scene scene = {};                       // Gives every number that is neither unknown nor an input.
+  std::vector<FitUnknown> unknowns = {};  // At least one.
+  std::vector<FitInput> inputs = {};
+  std::vector<FitMeasured> measured = {};  // At least one, with as many measured numbers as there are unknowns or more.
   FitLoss loss = FitLoss::kUnspecified;
-  std::optional<double> loss_scale;       // c > 0, of a robust loss only; absent: kHuberScale or kCauchyScale.
-  std::optional<int32_t> starts;          // In [1, kMostFitStarts]; absent: 1. Further ones spread over the bounds.
-  std::optional<int32_t> max_iterations;  // Of each search, in [1, kMostFitIterations]; absent: kFitIterations.
-  std::vector<std::string> region;        // Empty, or the paths of the two unknowns whose 95 % region is wanted.
+  std::optional<double> loss_scale = {};  // c > 0, of a robust loss only; absent: kHuberScale or kCauchyScale.
+  std::optional<int32_t> starts = {};     // In [1, kMostFitStarts]; absent: 1. Further ones spread over the bounds.
+  std::optional<int32_t> max_iterations = {};  // Of each search, in [1, kMostFitIterations]; absent: kFitIterations.
+  std::vector<std::string> region = {};        // Empty, or the paths of the two unknowns whose 95 % region is wanted.
   friend bool operator==(const FitRequest&, const FitRequest&) = default;
 };
 

@@ -17,7 +17,7 @@
 namespace ricochet {
 
 struct ListValues {
-  std::vector<double> values;  // At least one.
+  std::vector<double> values = {};  // At least one.
   friend bool operator==(const ListValues&, const ListValues&) = default;
 };
 
@@ -38,8 +38,8 @@ struct Logspace {
 };
 
 struct Axis {
-  std::string path;  // A field of the scene or a derived angle, as `ricochet scene fields` lists them.
-  std::variant<std::monostate, ListValues, Linspace, Logspace> values;
+  std::string path = {};  // A field of the scene or a derived angle, as `ricochet scene fields` lists them.
+  std::variant<std::monostate, ListValues, Linspace, Logspace> values = {};
   friend bool operator==(const Axis&, const Axis&) = default;
 };
 
@@ -51,8 +51,8 @@ enum class Combination {
 };
 
 struct Grid {
-  Scene scene;
-  std::vector<Axis> axes;  // A grid without axes has one point, the base scene.
+  Scene scene = {};
+  std::vector<Axis> axes = {};  // A grid without axes has one point, the base scene.
   Combination combination = Combination::kUnspecified;
   friend bool operator==(const Grid&, const Grid&) = default;
 };

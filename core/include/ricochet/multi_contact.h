@@ -5,9 +5,9 @@
 //   orders    the outcomes of one impact after the other, for every order in which approaching contacts can be hit
 //   springs   the limit of stiff springs at the contacts whose stiffnesses keep fixed ratios
 //   possible  bounds that no outcome exceeds, of whatever order, stiffness or law that takes energy
-// Every outcome of orders and springs lies within `possible`. Friction is Coulomb's, with one coefficient; restitution
-// is energetic at each contact. Contacts and bodies are counted from 1. The numbers of a contact stand in the order
-// t, n in a plane and t1, t2, n in space, one contact after the other. Units are SI.
+// Every outcome of orders and springs that ended lies within `possible`. Friction is Coulomb's, with one coefficient;
+// restitution is energetic at each contact. Contacts and bodies are counted from 1. The numbers of a contact stand in
+// the order t, n in a plane and t1, t2, n in space, one contact after the other. Units are SI.
 
 #ifndef RICOCHET_MULTI_CONTACT_H_
 #define RICOCHET_MULTI_CONTACT_H_
@@ -32,25 +32,25 @@ inline constexpr int kMostOrdersListed = 8;
 // W = J M^-1 J^T of all contacts, symmetric and positive semidefinite, and their velocity before, which lies in the
 // range of W. There are d = 2 or 3 numbers for each contact, as the length of `velocity_m_s` says.
 struct ContactMatrix {
-  std::vector<double> w_per_kg;  // All kd x kd entries, row by row.
-  std::vector<double> velocity_m_s;
+  std::vector<double> w_per_kg = {};  // All kd x kd entries, row by row.
+  std::vector<double> velocity_m_s = {};
   friend bool operator==(const ContactMatrix&, const ContactMatrix&) = default;
 };
 
 // A free rigid body, in a plane with coordinates (x, y) or in space with (x, y, z). All vectors have these directions.
 struct FreeBody {
   double mass_kg = 0.0;  // > 0
-  std::vector<double>
-      inertia_com_kg_m2;              // In a plane one number > 0; in space 11, 12, 13, 22, 23, 33 as of SpatialBody.
-  std::vector<double> position_m;     // The place of the centre of mass.
-  std::vector<double> linear_m_s;     // The velocity of the centre of mass before; empty: at rest.
-  std::vector<double> angular_rad_s;  // One number in a plane, three in space; empty: 0.
+  std::vector<double> inertia_com_kg_m2 =
+      {};                               // In a plane one number > 0; in space 11, 12, 13, 22, 23, 33 as of SpatialBody.
+  std::vector<double> position_m = {};  // The place of the centre of mass.
+  std::vector<double> linear_m_s = {};  // The velocity of the centre of mass before; empty: at rest.
+  std::vector<double> angular_rad_s = {};  // One number in a plane, three in space; empty: 0.
   friend bool operator==(const FreeBody&, const FreeBody&) = default;
 };
 
 // Bodies that touch each other and the ground, which is at rest.
 struct FreeBodies {
-  std::vector<FreeBody> bodies;
+  std::vector<FreeBody> bodies = {};
   friend bool operator==(const FreeBodies&, const FreeBodies&) = default;
 };
 
@@ -59,23 +59,23 @@ struct FreeBodies {
 using MultiContactSystem = std::variant<std::monostate, ContactMatrix, FreeBodies, Mechanism>;
 
 struct MultiContactPoint {
-  double friction = 0.0;            // Coulomb's coefficient, kinetic and static, from 0 to 1e9
-  std::optional<double> energetic;  // Stronge's coefficient of restitution, in [0, 1]. Required.
+  double friction = 0.0;                 // Coulomb's coefficient, kinetic and static, from 0 to 1e9
+  std::optional<double> energetic = {};  // Stronge's coefficient of restitution, in [0, 1]. Required.
   // Stiffness of this contact relative to that of the others, > 0; unset: 1. Only springs use it.
-  std::optional<double> relative_stiffness;
+  std::optional<double> relative_stiffness = {};
   // Only FreeBodies have these. The normal points out of the other body, or the ground, into the body; its length does
   // not matter. In a plane t = (n_y, -n_x), so that t points to the right where n points up. In space t1 is the x axis
   // without its part along n, or the y axis if |n_x| > 0.9, and t2 = n x t1.
-  int32_t body = 0;             // From 1.
-  int32_t other_body = 0;       // From 1; 0 is the ground.
-  std::vector<double> point_m;  // Where they touch.
-  std::vector<double> normal;
+  int32_t body = 0;                  // From 1.
+  int32_t other_body = 0;            // From 1; 0 is the ground.
+  std::vector<double> point_m = {};  // Where they touch.
+  std::vector<double> normal = {};
   friend bool operator==(const MultiContactPoint&, const MultiContactPoint&) = default;
 };
 
 struct MultiContactScene {
-  MultiContactSystem system;
-  std::vector<MultiContactPoint> contacts;  // 1 to kMostContacts.
+  MultiContactSystem system = {};
+  std::vector<MultiContactPoint> contacts = {};  // 1 to kMostContacts.
   friend bool operator==(const MultiContactScene&, const MultiContactScene&) = default;
 };
 
@@ -88,14 +88,14 @@ enum class MultiContactMethod { kUnspecified = 0, kOrders = 1, kSprings = 2, kPo
 // A velocity before that takes the place of the scene's: the kd contact velocities of a ContactMatrix, the rates of a
 // mechanism, or body after body its linear and its angular velocity.
 struct MultiContactState {
-  std::vector<double> velocity;
+  std::vector<double> velocity = {};
   friend bool operator==(const MultiContactState&, const MultiContactState&) = default;
 };
 
 // A linear function of the velocities of the system, which are listed as in MultiContactState, that gets bounds too.
 struct LinearOutput {
-  std::string name;
-  std::vector<double> coefficients;  // One for each component of the velocity.
+  std::string name = {};
+  std::vector<double> coefficients = {};  // One for each component of the velocity.
   friend bool operator==(const LinearOutput&, const LinearOutput&) = default;
 };
 
@@ -108,11 +108,11 @@ struct StiffnessRange {
 };
 
 struct MultiContactRequest {
-  MultiContactScene scene;
-  std::vector<MultiContactState> states;    // Each gets an answer; if there is none, the scene's own velocity does.
-  std::vector<MultiContactMethod> methods;  // Empty: each that the scene allows.
-  std::vector<LinearOutput> outputs;
-  std::optional<StiffnessRange> stiffness_range;
+  MultiContactScene scene = {};
+  std::vector<MultiContactState> states = {};  // Each gets an answer; if there is none, the scene's own velocity does.
+  std::vector<MultiContactMethod> methods = {};  // Empty: each that the scene allows.
+  std::vector<LinearOutput> outputs = {};
+  std::optional<StiffnessRange> stiffness_range = {};
   friend bool operator==(const MultiContactRequest&, const MultiContactRequest&) = default;
 };
 
@@ -158,8 +158,8 @@ struct AttainedOutcome {
   // False if the tangential impulses are one of many with the same effect, as at two feet on one floor.
   bool friction_split_is_unique = true;
   std::vector<ContactLedger> contacts;
-  double energy_change_j = 0.0;
-  double work_error_j = 0.0;  // The error of each work and of the change of energy; infinite if none is known.
+  double energy_change_j = 0.0;  // If wedged: of the velocities, as there are no works.
+  double work_error_j = 0.0;     // The error of each work and of the change of energy; infinite if none is known.
   bool error_is_proved = false;
   friend bool operator==(const AttainedOutcome&, const AttainedOutcome&) = default;
 };

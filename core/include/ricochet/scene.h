@@ -24,8 +24,8 @@ struct PowerLaw {
   friend bool operator==(const PowerLaw&, const PowerLaw&) = default;
 };
 struct SpeedTable {
-  std::vector<double> speed_m_s;  // >= 0, strictly rising, at least one.
-  std::vector<double> factor;     // One for each speed; linear between two speeds, constant outside.
+  std::vector<double> speed_m_s = {};  // >= 0, strictly rising, at least one.
+  std::vector<double> factor = {};     // One for each speed; linear between two speeds, constant outside.
   friend bool operator==(const SpeedTable&, const SpeedTable&) = default;
 };
 // std::monostate means that the request stated none, which Validate reports.
@@ -33,9 +33,9 @@ using SpeedDependence = std::variant<std::monostate, PowerLaw, SpeedTable>;
 
 // Dry (Amontons-Coulomb) friction, |F| <= mu N.
 struct Friction {
-  double kinetic_coefficient = 0.0;          // mu while the contact slides, >= 0; 0 is a smooth surface.
-  std::optional<double> static_coefficient;  // mu_s while it sticks, >= mu; absent means mu.
-  std::optional<SpeedDependence> by_speed;   // Factor of both coefficients; absent means 1.
+  double kinetic_coefficient = 0.0;               // mu while the contact slides, >= 0; 0 is a smooth surface.
+  std::optional<double> static_coefficient = {};  // mu_s while it sticks, >= mu; absent means mu.
+  std::optional<SpeedDependence> by_speed = {};   // Factor of both coefficients; absent means 1.
 
   friend bool operator==(const Friction&, const Friction&) = default;
 };
@@ -56,7 +56,7 @@ struct EnergeticCoefficient {
 
 // The velocity of a moving surface; contact velocities are relative to it. A body pair has no surface.
 struct SurfaceVelocity {
-  std::vector<double> tangential_m_s;  // One entry in a plane, two in space; empty: 0 each.
+  std::vector<double> tangential_m_s = {};  // One entry in a plane, two in space; empty: 0 each.
   double normal_m_s = 0.0;
 
   friend bool operator==(const SurfaceVelocity&, const SurfaceVelocity&) = default;
@@ -87,8 +87,8 @@ struct Compliance {
   // Tangential over normal compliance, in [1e-9, 1e9]; (2 - nu)/(2 (1 - nu)) for spheres of Poisson's ratio nu. Absent
   // means rigid along the surface. It must be absent with a HertzSpring or HuntCrossleySpring, and if static friction
   // is above kinetic friction.
-  std::optional<double> tangential_ratio_squared;
-  NormalSpring normal;
+  std::optional<double> tangential_ratio_squared = {};
+  NormalSpring normal = {};
   friend bool operator==(const Compliance&, const Compliance&) = default;
 };
 
@@ -143,14 +143,14 @@ using Restitution = std::variant<std::monostate, NewtonCoefficient, PoissonCoeff
 using ImpactLaw = std::variant<std::monostate, WhittakerLaw, KaneLevinsonLaw, BrachLaw, ChatterjeeRuinaLaw>;
 
 struct Scene {
-  System system;
-  Friction friction;
-  Restitution restitution;                              // Unset exactly if impact_law or a HuntCrossleySpring is.
-  std::optional<SpeedDependence> restitution_by_speed;  // Absent means constant.
-  std::optional<SurfaceVelocity> surface_velocity;      // Absent means at rest.
-  ImpactLaw impact_law;
-  std::optional<Compliance> compliance;  // Absent means rigid; must be absent with an impact law.
-  FiniteForces finite_forces;            // Must be unset with an impact law.
+  System system = {};
+  Friction friction = {};
+  Restitution restitution = {};                              // Unset exactly if impact_law or a HuntCrossleySpring is.
+  std::optional<SpeedDependence> restitution_by_speed = {};  // Absent means constant.
+  std::optional<SurfaceVelocity> surface_velocity = {};      // Absent means at rest.
+  ImpactLaw impact_law = {};
+  std::optional<Compliance> compliance = {};  // Absent means rigid; must be absent with an impact law.
+  FiniteForces finite_forces = {};            // Must be unset with an impact law.
 
   friend bool operator==(const Scene&, const Scene&) = default;
 };

@@ -3,8 +3,8 @@
 // Thread safety: every method may be called from several threads at once.
 // Errors: a bad request gets INVALID_ARGUMENT with its violations (ricochet/error.h), one that is too large for the
 // solver RESOURCE_EXHAUSTED (ricochet/limits.h), an exact result above the largest double OUT_OF_RANGE, a call that its
-// CallOptions end CANCELLED or DEADLINE_EXCEEDED; a Client adds the errors of the
-// network. Numerical outcomes are fields of the answer, not errors.
+// CallOptions end CANCELLED or DEADLINE_EXCEEDED; a Client adds the errors of the network. Numerical outcomes are
+// fields of the answer, not errors.
 
 #ifndef RICOCHET_SOLVER_H_
 #define RICOCHET_SOLVER_H_
@@ -43,16 +43,16 @@ namespace ricochet {
 inline constexpr int64_t kMostIntervals = 65535;
 
 struct SolveRequest {
-  Scene scene;
+  Scene scene = {};
   // Normal impulses tau at which Outcome::history gives the state, each in [0, tau1]; at most kMostIntervals + 1. Only
   // a planar scene without compliance and without an impact law has such a history, whatever the tolerance.
-  std::vector<double> history_at_n_s;
+  std::vector<double> history_at_n_s = {};
   // If > 0, Outcome::history has the states at the ends of this many equal steps of tau from 0 to tau1, at most
   // kMostIntervals. It excludes history_at_n_s, whose scenes it takes.
   int64_t history_intervals = 0;
   // If true, an outcome with admissible = false becomes FAILED_PRECONDITION.
   bool inadmissible_is_error = false;
-  DemandFields demand;
+  DemandFields demand = {};
   // If > 0, ContactDuration::history has the forces at this many equal steps of time, at most kMostIntervals. This
   // requires Effect::kFiniteDuration.
   int64_t force_intervals = 0;
@@ -62,7 +62,7 @@ struct SolveRequest {
   // If true, Outcome::free_end has the same impact with no coordinate held. It takes a mechanism that holds some.
   bool both_ends = false;
   // If present, asks for Outcome::derivatives. No effect may be excluded.
-  std::optional<DerivativePaths> derivatives;
+  std::optional<DerivativePaths> derivatives = {};
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };
 
@@ -76,8 +76,8 @@ struct SolveResponse {
 };
 
 struct PlanRequest {
-  Scene scene;
-  DemandFields demand;
+  Scene scene = {};
+  DemandFields demand = {};
   friend bool operator==(const PlanRequest&, const PlanRequest&) = default;
 };
 
@@ -89,20 +89,20 @@ struct PlanResponse {
 
 // The range in which a field of an uncertain scene lies.
 struct FieldRange {
-  std::string path;  // Path of the field, spelled as for an axis of a sweep.
+  std::string path = {};  // Path of the field, spelled as for an axis of a sweep.
   double low = 0.0;
   double high = 0.0;
   friend bool operator==(const FieldRange&, const FieldRange&) = default;
 };
 
 struct BoundsRequest {
-  Scene scene;  // Its restitution may be left unset.
+  Scene scene = {};  // Its restitution may be left unset.
   // Ranges ask for an enclosure (docs/theory/bounds.md). All fields of a planar system, the coefficients of friction
   // and the velocity of the surface may have one.
-  std::vector<FieldRange> ranges;
+  std::vector<FieldRange> ranges = {};
   int32_t certified_digits = 0;  // Digits of BoundsResponse::certificate; the rules of SolveRequest hold.
   // If present, asks for BoundsResponse::derivatives: of BoundsNumbers by numbers of the scene other than restitution.
-  std::optional<DerivativePaths> derivatives;
+  std::optional<DerivativePaths> derivatives = {};
   friend bool operator==(const BoundsRequest&, const BoundsRequest&) = default;
 };
 
@@ -116,8 +116,8 @@ struct BoundsResponse {
 };
 
 struct AuditRequest {
-  Scene scene;  // Its restitution and impact law are not used and may be left unset.
-  Observed observed;
+  Scene scene = {};  // Its restitution and impact law are not used and may be left unset.
+  Observed observed = {};
   double velocity_uncertainty_m_s = 0.0;  // Bound on the error of each component of the observed velocity, >= 0.
   friend bool operator==(const AuditRequest&, const AuditRequest&) = default;
 };
@@ -132,8 +132,8 @@ struct AuditResponse {
 };
 
 struct AuditBatchRequest {
-  Scene scene;  // Its restitution and impact law are not used and may be left unset.
-  AuditColumns columns;
+  Scene scene = {};  // Its restitution and impact law are not used and may be left unset.
+  AuditColumns columns = {};
   friend bool operator==(const AuditBatchRequest&, const AuditBatchRequest&) = default;
 };
 
@@ -181,8 +181,8 @@ class Solver {
   absl::StatusOr<FitResponse> Fit(const FitRequest& request, const CallOptions& options = {}) const {
     return DoFit(request, options);
   }
-  // Finds what several contacts at once can do, and whether their order matters. It stops within 10 ms of a stop by its
-  // options.
+
+  // Finds what several contacts at once can do, and whether their order matters.
   absl::StatusOr<MultiContactResponse> MultiContact(const MultiContactRequest& request,
                                                     const CallOptions& options = {}) const {
     return DoMultiContact(request, options);
@@ -246,6 +246,9 @@ class Solver {
 // of their streams. Between two chunks helpers compute one chunk ahead, so that a stream holds a few chunks of 512 KiB
 // at most, and one more for every four helpers. The number of threads changes no bit of an answer, and neither does the
 // floating-point mode of the thread that calls (rounding, subnormal numbers, traps), which it has again afterwards.
+//
+// After a fork the new process has none of these threads: a solver made before it computes there on the calling thread
+// alone. No call may be running while the process forks.
 class LocalSolver final : public Solver {
  public:
   // Without limits it takes a request of any size, because the process that asks is the one that pays.

@@ -33,17 +33,17 @@ enum class RowStatus : uint8_t {
 inline constexpr int kRowStatusCount = 7;
 
 struct SweepRequest {
-  Grid grid;
+  Grid grid = {};
   // Paths into the outcome, at least one, no two equal, as `ricochet scene columns` lists them. Asking for a number is
   // asking for the effects that make it: "contact.duration_s" requires Effect::kFiniteDuration at every point.
   // "d(OF)/d(BY)" is Derivative::value of a number OF of the outcome by a number BY of the scene.
-  std::vector<std::string> columns;
+  std::vector<std::string> columns = {};
   bool with_regime = false;  // If true, every chunk has the regimes and the statuses of its points.
   // The request covers the points [first_index, end_index) of the grid; an absent end means all to the end. A point has
   // the same bits in every range.
   int64_t first_index = 0;
-  std::optional<int64_t> end_index;
-  DemandFields demand;  // Demand on every point; each point gets its own plan.
+  std::optional<int64_t> end_index = {};
+  DemandFields demand = {};  // Demand on every point; each point gets its own plan.
   friend bool operator==(const SweepRequest&, const SweepRequest&) = default;
 };
 

@@ -41,11 +41,11 @@ struct PlanarBody {
 
 // A free rigid body in space, everything in the right-handed contact frame (t1, t2, n).
 struct SpatialBody {
-  double mass_kg = 0.0;                   // > 0
-  std::vector<double> inertia_com_kg_m2;  // 6 entries 11 12 13 22 23 33 of a positive definite matrix.
-  std::vector<double> offset_m;           // 3 components of the vector from the centre of mass to the contact point.
-  std::vector<double> linear_m_s;         // 3 components of the velocity of the centre of mass.
-  std::vector<double> angular_rad_s;      // 3 components of the angular velocity.
+  double mass_kg = 0.0;                        // > 0
+  std::vector<double> inertia_com_kg_m2 = {};  // 6 entries 11 12 13 22 23 33 of a positive definite matrix.
+  std::vector<double> offset_m = {};       // 3 components of the vector from the centre of mass to the contact point.
+  std::vector<double> linear_m_s = {};     // 3 components of the velocity of the centre of mass.
+  std::vector<double> angular_rad_s = {};  // 3 components of the angular velocity.
 
   friend bool operator==(const SpatialBody&, const SpatialBody&) = default;
 };
@@ -53,20 +53,20 @@ struct SpatialBody {
 // Two free bodies that strike each other: the impulses act on body 1, their opposites on body 2, n points into body 1,
 // and the contact velocity is that of body 1 relative to body 2.
 struct PlanarPair {
-  PlanarBody body_1;
-  PlanarBody body_2;
+  PlanarBody body_1 = {};
+  PlanarBody body_2 = {};
 
   friend bool operator==(const PlanarPair&, const PlanarPair&) = default;
 };
 struct SpatialPair {
-  SpatialBody body_1;
-  SpatialBody body_2;
+  SpatialBody body_1 = {};
+  SpatialBody body_2 = {};
 
   friend bool operator==(const SpatialPair&, const SpatialPair&) = default;
 };
 // std::monostate means that the request stated no bodies, which Validate reports.
 struct BodyPair {
-  std::variant<std::monostate, PlanarPair, SpatialPair> bodies;
+  std::variant<std::monostate, PlanarPair, SpatialPair> bodies = {};
 
   friend bool operator==(const BodyPair&, const BodyPair&) = default;
 };
@@ -84,7 +84,7 @@ struct Link {
 
 // A planar chain that hangs from a fixed pin by frictionless joints; its tip strikes a horizontal surface.
 struct Linkage {
-  std::vector<Link> links;  // From the pin to the tip, at least one.
+  std::vector<Link> links = {};  // From the pin to the tip, at least one.
 
   friend bool operator==(const Linkage&, const Linkage&) = default;
 };
@@ -99,11 +99,11 @@ struct Linkage {
 // one rigid body: the first 6 coordinates (3 in a plane) stay free. They must be those of a free body: its velocity
 // along orthonormal axes, of which M makes m, m, m and J a rotation, before or after its angular velocity.
 struct Mechanism {
-  std::vector<double> mass_matrix;        // n x n entries, row by row, of a symmetric positive definite matrix.
-  std::vector<double> jacobian;           // d x n entries, row by row; the last row is along n.
-  std::vector<double> rates;              // n entries, q' before the impact.
-  std::vector<int32_t> kept_coordinates;  // Coordinates in [0, n), each once, that keep their rates.
-  bool composite = false;                 // All joints are held; kept_coordinates must then be empty.
+  std::vector<double> mass_matrix = {};        // n x n entries, row by row, of a symmetric positive definite matrix.
+  std::vector<double> jacobian = {};           // d x n entries, row by row; the last row is along n.
+  std::vector<double> rates = {};              // n entries, q' before the impact.
+  std::vector<int32_t> kept_coordinates = {};  // Coordinates in [0, n), each once, that keep their rates.
+  bool composite = false;                      // All joints are held; kept_coordinates must then be empty.
 
   friend bool operator==(const Mechanism&, const Mechanism&) = default;
 };
@@ -122,8 +122,8 @@ struct PlanarContact {
 
 // A contact in space: W and the contact velocity with the rules of PlanarContact; the third direction is n.
 struct SpatialContact {
-  std::vector<double> w_per_kg;        // 6 entries 11 12 13 22 23 33 of a positive semidefinite matrix.
-  std::vector<double> tangential_m_s;  // 2 components along t1 and t2.
+  std::vector<double> w_per_kg = {};        // 6 entries 11 12 13 22 23 33 of a positive semidefinite matrix.
+  std::vector<double> tangential_m_s = {};  // 2 components along t1 and t2.
   double normal_m_s = 0.0;
 
   friend bool operator==(const SpatialContact&, const SpatialContact&) = default;

@@ -506,6 +506,33 @@ TEST(DerivativesTest, PhiTurnsTheContactAboutThePin) {
   EXPECT_NEAR(by("pendulum.phi_rad"), 1.0 * by("pendulum.a_m") - 0.5 * by("pendulum.b_m"), 1e-14);
 }
 
+// Below the pin b = 0, and d/dphi is -a d/db of the other side.
+TEST(DerivativesTest, PhiHasTheKinkOfAPendulumBelowItsPin) {
+  const Scene scene = PendulumScene(0.0, 0.25, 0.8);
+  for (const char* of :
+       {"coefficients.newton", "impulse.normal_total_n_s", "rates_after_rad_s[0]", "energy_change_j"}) {
+    const Derivative by_phi = Only(scene, of, "pendulum.phi_rad"), by_b = Only(scene, of, "pendulum.b_m");
+    EXPECT_EQ(by_phi.kind, DerivativeKind::kOneSided) << of;
+    EXPECT_NEAR(*by_phi.from_above, -0.5 * *by_b.from_below, 1e-14) << of;
+    EXPECT_NEAR(*by_phi.from_below, -0.5 * *by_b.from_above, 1e-14) << of;
+  }
+  EXPECT_NEAR(*Only(scene, "coefficients.newton", "pendulum.phi_rad").from_above, -0.2, 1e-14);
+}
+
+// At 2 m/s the factor 1 - |v|^p is 0 for p = 0 and negative for every p > 0.
+TEST(DerivativesTest, AnExponentThatWouldMakeRestitutionNegativeHasNoSide) {
+  Scene scene = With(PlanarContact{3.0, 0.3, 1.0, 0.1, -2.0});
+  scene.friction.kinetic_coefficient = 0.1;
+  scene.restitution = EnergeticCoefficient{0.8};
+  scene.restitution_by_speed = PowerLaw{.alpha = 1.0, .exponent = 0.0};
+  const char* const exponent = "restitution.by_speed.power_law.exponent";
+  const Derivative fast = Only(scene, "coefficients.energetic", exponent);
+  EXPECT_EQ(fast.kind, DerivativeKind::kNone);
+  EXPECT_EQ(fast.threshold, Threshold::kDomain);
+  std::get<PlanarContact>(scene.system).normal_m_s = -0.5;
+  EXPECT_NEAR(*Only(scene, "coefficients.energetic", exponent).from_above, 0.8 * std::log(2.0), 1e-14);
+}
+
 TEST(DerivativesTest, NumberAtTheEndOfItsRangeHasOneSide) {
   const Scene elastic = PendulumScene(1.0, 0.25, 1.0);
   const Derivative most = Only(elastic, "coefficients.newton", "restitution.energetic");

@@ -23,7 +23,7 @@ Mechanism MechanismOf(const Linkage& linkage) {
   Eigen::VectorXd rates(static_cast<Eigen::Index>(linkage.links.size()));
   std::transform(linkage.links.begin(), linkage.links.end(), rates.begin(),
                  [](const Link& link) { return link.rate_rad_s; });
-  return MechanismFrom(MassMatrix(linkage), TransposedJacobian(linkage).transpose(), rates);
+  return *MechanismFrom(MassMatrix(linkage), TransposedJacobian(linkage).transpose(), rates);
 }
 
 // The rows of one body, which the impulses act on if `side` is 1.
@@ -42,7 +42,7 @@ Mechanism MechanismOf(const std::vector<PlanarBody>& bodies) {
   for (size_t i = 0; i < bodies.size(); ++i) {
     AddBody(bodies[i], i == 0 ? 1.0 : -1.0, static_cast<Eigen::Index>(3 * i), mass, jacobian, rates);
   }
-  return MechanismFrom(mass, jacobian, rates);
+  return *MechanismFrom(mass, jacobian, rates);
 }
 
 Mechanism MechanismOf(const SpatialBody& body) {
@@ -56,7 +56,7 @@ Mechanism MechanismOf(const SpatialBody& body) {
   Eigen::VectorXd rates(6);
   rates << body.linear_m_s[0], body.linear_m_s[1], body.linear_m_s[2], body.angular_rad_s[0], body.angular_rad_s[1],
       body.angular_rad_s[2];
-  return MechanismFrom(mass, jacobian, rates);
+  return *MechanismFrom(mass, jacobian, rates);
 }
 
 Outcome Solve(const System& system) { return LocalSolver().Solve({.scene = With(system)})->outcome; }
@@ -167,7 +167,7 @@ TEST(MechanismTest, CompositeMovesAsOneRigidBody) {
   const double tip = r + 0.3;
   const Eigen::MatrixXd jacobian{{1, 0, 0, 0}, {0, 1, tip, tip - l}};
   const Eigen::VectorXd rates{{0.4, -1.0, 0.2, 0.0}};
-  Mechanism arm = MechanismFrom(mass, jacobian, rates);
+  Mechanism arm = *MechanismFrom(mass, jacobian, rates);
   arm.composite = true;
   const double centre = r / 2.0;
   const PlanarBody both = {.mass_kg = 2 * m,

@@ -3,8 +3,11 @@
 
 #include "core/engine/fingerprint.h"
 
+#include <fenv.h>
 #include <gtest/gtest.h>
 
+#include <cfenv>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -37,6 +40,19 @@ TEST(FingerprintTest, TheLastBitOfAnyKindOfAnswerChangesIt) {
     }
   }
   EXPECT_EQ(FingerprintOf(probes), before);
+}
+
+// It is computed once in a process, by whichever thread asks first.
+TEST(FingerprintDeathTest, DoesNotDependOnTheFloatingPointModeOfTheCaller) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto compare = [](int changed) {
+    std::fesetround(changed);
+    feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    const std::string first = ThisEngine().fingerprint;
+    std::fesetenv(FE_DFL_ENV);
+    std::exit(first == FingerprintOf(ProbeEngine()) ? 0 : 1);
+  };
+  EXPECT_EXIT(compare(FE_UPWARD), testing::ExitedWithCode(0), "");
 }
 
 TEST(FingerprintTest, TheEngineHasThatOfItsProbes) {

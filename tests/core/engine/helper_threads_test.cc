@@ -3,8 +3,11 @@
 #include "core/engine/helper_threads.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <future>
 #include <mutex>
 #include <set>
@@ -70,6 +73,36 @@ TEST(HelperThreadsTest, EveryHelpThatWasAcceptedEndsBeforeTheThreadsDo) {
   }
   EXPECT_GT(accepted, 0);
   EXPECT_EQ(ended, accepted);
+}
+
+TEST(HelperThreadsDeathTest, AForkedProcessNeitherUsesThemNorWaitsForThem) {
+  auto* const threads = new HelperThreads(1);
+  std::promise<void> helped;
+  ASSERT_TRUE(threads->Start([&](absl::FunctionRef<bool()> /*gives_way*/) { helped.set_value(); }));
+  helped.get_future().wait();
+  const auto leave = [threads] {
+    alarm(30);
+    const bool has_started = threads->Start([](absl::FunctionRef<bool()> /*gives_way*/) {});
+    delete threads;
+    _exit(has_started ? 1 : 0);
+  };
+  EXPECT_EXIT(leave(), testing::ExitedWithCode(0), "");
+  delete threads;
+}
+
+TEST(HelperThreadsDeathTest, CoresAreThoseThatTheProcessMayUse) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto count = [] {
+    cpu_set_t cores;
+    sched_getaffinity(0, sizeof(cores), &cores);
+    size_t first = 0;
+    while (!CPU_ISSET(first, &cores)) ++first;
+    CPU_ZERO(&cores);
+    CPU_SET(first, &cores);
+    sched_setaffinity(0, sizeof(cores), &cores);
+    std::exit(AvailableCores());
+  };
+  EXPECT_EXIT(count(), testing::ExitedWithCode(1), "");
 }
 
 }  // namespace

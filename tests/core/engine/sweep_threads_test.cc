@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -227,6 +228,19 @@ TEST(SweepThreadsTest, TheOptionsAreAskedOnTheThreadOfTheCallAlone) {
 }
 
 // Copies of a solver share its threads, and several streams compete for them.
+TEST(SweepThreadsTest, WhatKeepsAHelperFromStartingReachesTheCaller) {
+  struct NoThreads final : Helpers {
+    int most() const override { return 2; }
+    bool Start(Help /*help*/) override { throw std::runtime_error("no thread"); }
+  };
+  SweepStream stream =
+      LocalSolver().Sweep(Frictions(OnePendulum(), 1'000'000), {.helpers = std::make_shared<NoThreads>()});
+  const auto read = [&stream] {
+    for (const auto& chunk : stream) ASSERT_TRUE(chunk.ok());
+  };
+  EXPECT_THROW(read(), std::runtime_error);
+}
+
 TEST(SweepThreadsTest, ManySweepsAtOnceHaveTheSameBits) {
   SweepRequest request = Frictions(Contact(), 4'000);
   request.columns = {"energy_change_j"};

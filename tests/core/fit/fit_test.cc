@@ -81,7 +81,8 @@ TEST(FitTest, FrictionOfRowsThatStickHasNoFiniteInterval) {
   }
 }
 
-TEST(FitTest, AnUnknownThatNoNumberDependsOnHasNoEnds) {
+// Static friction is at least kinetic friction, which the data do tell.
+TEST(FitTest, AnUnknownThatNoNumberDependsOnEndsWhereARuleTiesItToAnother) {
   Case given = ContactCase();
   given.unknowns.push_back({.path = "friction.static_coefficient", .start = 0.5});
   given.truth.friction.kinetic_coefficient = 0.05;
@@ -92,7 +93,8 @@ TEST(FitTest, AnUnknownThatNoNumberDependsOnHasNoEnds) {
   EXPECT_FALSE(response.unknowns[2].seen);
   EXPECT_EQ(response.unknowns[2].high.kind, FitEndKind::kNotSeen);
   EXPECT_FALSE(response.unknowns[2].high.value.has_value());
-  EXPECT_FALSE(response.unknowns[2].low.value.has_value());
+  ASSERT_EQ(response.unknowns[2].low.kind, FitEndKind::kFound);
+  EXPECT_NEAR(*response.unknowns[2].low.value, *response.unknowns[0].low.value, 1e-5);
 }
 
 // Rows that slide tell the product mu (1 + e) alone where only the tangential velocity is measured and W is diagonal.
@@ -295,6 +297,40 @@ TEST(FitTest, AnEstimateThatRunsOffKeepsItsFiniteEnd) {
   const FitEnd& low = response.unknowns[0].low;
   ASSERT_EQ(low.kind, FitEndKind::kFound);
   EXPECT_NEAR(ChiSquaredAt(request, {*low.value}) - ChiSquaredAt(request, {1e9}), 3.841458820694124, 1e-3);
+}
+
+// Where w_tt and the friction change, their product alone is measured well. At each held w_tt the best friction is near
+// 1.26/w_tt; searches that start elsewhere end where all rows stick, which changes nothing.
+TEST(FitTest, AProfileFollowsAnUnknownThatIsCorrelatedWithTheOneHeld) {
+  FitRequest request = {
+      .scene = {.system = PlanarContact{.w_tt_per_kg = 3.0, .w_tn_per_kg = 0.05, .w_nn_per_kg = 1.0},
+                .friction = {.kinetic_coefficient = 0.42},
+                .restitution = PoissonCoefficient{0.84}},
+      .unknowns = {{.path = "planar_contact.w_tt_per_kg"}, {.path = "friction.kinetic_coefficient"}},
+      .inputs = {{"planar_contact.tangential_m_s", {0.093, 1.793, -0.187, 0.033, 1.063, 1.703}},
+                 {"planar_contact.normal_m_s", {-0.74, -0.73, -1.05, -1.76, -1.82, -0.68}}},
+      .measured = {{"contact_velocity_after.tangential_m_s[0]", {-0.001, 0.137, -0.007, 0.029, 0.014, 0.168}, {0.02}},
+                   {"contact_velocity_after.normal_m_s", {0.638, 0.647, 0.886, 1.448, 1.54, 0.585}, {0.02}}}};
+  const FitResponse response = *Fit(request, Never);
+  for (const auto& [w_tt, friction] : {std::pair(3.0, 0.4181), {5.04, 0.2509}, {8.0, 0.1588}, {50.0, 0.0256}}) {
+    ASSERT_LT(ChiSquaredAt(request, {w_tt, friction}) - response.chi2, 1.0);
+    for (const auto& [k, value] : {std::pair(0, w_tt), {1, friction}}) {
+      const FitEstimate& estimate = response.unknowns[static_cast<size_t>(k)];
+      EXPECT_LT(estimate.low.value.value_or(value - 1.0), value) << estimate.path;
+      EXPECT_GT(estimate.high.value.value_or(value + 1.0), value) << estimate.path;
+    }
+  }
+}
+
+TEST(FitTest, ResidualsWithoutASquareAreRefused) {
+  FitRequest request = Noiseless(ContactCase());
+  request.measured[0].values[3] = 1e200;
+  for (const FitLoss loss : {FitLoss::kSquares, FitLoss::kCauchy}) {
+    request.loss = loss;
+    const absl::Status status = Fit(request, Never).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kOutOfRange) << status;
+    EXPECT_THAT(std::string(status.message()), HasSubstr("rows[3].residuals[0]"));
+  }
 }
 
 // Where friction locks the pendulum, any coefficient fits.

@@ -50,6 +50,71 @@ TEST(HardMultiContactTest, AContactThatJamsEndsNothingElsewhere) {
   EXPECT_NEAR(springs.v(5), 0.0, 1e-4);
 }
 
+// Two plastic contacts that push each other on come to rest: nothing can hold a force where W is regular and there is
+// no friction, and all energy of the contacts is lost.
+TEST(HardMultiContactTest, PlasticContactsThatPushEachOtherOnComeToRest) {
+  for (const double coupling : {0.05, 0.2, 0.5, 0.9}) {
+    for (const double second : {0.5, 0.7, 1.3}) {
+      MultiContactScene scene;
+      scene.system = ContactMatrix{.w_per_kg = {1, 0, 0, 0, 0, 1, 0, -coupling, 0, 0, 1, 0, 0, -coupling, 0, 1},
+                                   .velocity_m_s = {0, -1, 0, -second}};
+      scene.contacts = {{.energetic = 0.0}, {.energetic = 0.0}};
+      const MultiContactAnswer answer = LocalSolver().MultiContact({.scene = scene})->answers.front();
+      const AttainedOutcome& springs = *answer.springs;
+      EXPECT_EQ(springs.end, MultiContactEnd::kEndless) << coupling << " " << second;
+      EXPECT_EQ(answer.verdict, MultiContactVerdict::kOrdersAgree) << coupling << " " << second;
+      const double energy = (1.0 + 2.0 * coupling * second + second * second) / (1.0 - coupling * coupling) / 2.0;
+      EXPECT_NEAR(springs.energy_change_j, -energy, 1e-11) << coupling << " " << second;
+    }
+  }
+}
+
+// The energy of contacts that jam is that of their velocities.
+TEST(HardMultiContactTest, AWedgedOutcomeHasTheEnergyOfItsVelocities) {
+  MultiContactScene scene;
+  scene.system =
+      ContactMatrix{.w_per_kg = {1, -1, 0, 0, -1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, .velocity_m_s = {1, -1, 0, 1}};
+  scene.contacts = {{.friction = 2.0, .energetic = 0.5}, {.energetic = 0.5}};
+  const AttainedOutcome springs = *LocalSolver().MultiContact({.scene = scene})->answers.front().springs;
+  EXPECT_EQ(springs.end, MultiContactEnd::kWedged);
+  EXPECT_NEAR(springs.energy_change_j, -0.5, 1e-12);
+  EXPECT_TRUE(std::isinf(springs.work_error_j));
+}
+
+// A plank of 1 kg on two feet below a box of r kg on two others. W has rank 6 and loses digits of the box to rounding;
+// the velocities of bodies lie in its range all the same.
+TEST(HardMultiContactTest, HeavyBodiesOnLightOnesAreAnswered) {
+  for (const double mass : {1e2, 1e3, 1e4, 1e6}) {
+    MultiContactScene scene;
+    scene.system = FreeBodies{.bodies = {{.mass_kg = 1.0, .inertia_com_kg_m2 = {0.14}, .position_m = {0.0, 0.05}},
+                                         {.mass_kg = mass,
+                                          .inertia_com_kg_m2 = {0.16 * mass},
+                                          .position_m = {0.1, 0.6},
+                                          .linear_m_s = {0.3, -1.0},
+                                          .angular_rad_s = {0.1}}}};
+    for (const double x : {-0.65, 0.65}) {
+      scene.contacts.push_back(
+          {.friction = 0.5, .energetic = 0.3, .body = 1, .point_m = {x, 0.0}, .normal = {0.0, 1.0}});
+    }
+    for (const double x : {-0.4, 0.6}) {
+      scene.contacts.push_back(
+          {.friction = 0.5, .energetic = 0.3, .body = 2, .other_body = 1, .point_m = {x, 0.1}, .normal = {0.0, 1.0}});
+    }
+    const absl::StatusOr<MultiContactResponse> response = LocalSolver().MultiContact(
+        {.scene = scene, .methods = {MultiContactMethod::kOrders, MultiContactMethod::kPossible}});
+    ASSERT_TRUE(response.ok()) << response.status();
+    const MultiContactAnswer& answer = response->answers.front();
+    for (const AttainedOutcome& outcome : answer.orders) {
+      if (outcome.end == MultiContactEnd::kBudgetUsedUp) continue;
+      for (size_t j = 0; j < outcome.contact_velocity_m_s.size(); ++j) {
+        const double v = outcome.contact_velocity_m_s[j], error = outcome.contact_velocity_error_m_s[j];
+        EXPECT_LE(answer.possible[j].lower, v + error) << mass << " " << j;
+        EXPECT_GE(answer.possible[j].upper, v - error) << mass << " " << j;
+      }
+    }
+  }
+}
+
 // Each two impacts multiply the speed by e1 e2, so that the impulses are geometric sums.
 TEST(HardMultiContactTest, ABallInASlotComesToRest) {
   const Problem slot = Slot(0.5, 0.8);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 
 #include "ricochet/eigen.h"
 
@@ -36,6 +37,13 @@ TEST(ContactMatrixTest, NamesTheEntriesThatDifferAndTheFrame) {
   EXPECT_THAT(std::string(space.status().message()), HasSubstr("x, y, z of the world"));
 }
 
+TEST(ContactMatrixTest, NamesAnEntryBelowTheDiagonalThatIsNotFinite) {
+  std::array<double, 4> w = kPlane;
+  w[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(ViolationsOf(ContactFrom(std::span<const double, 4>(w), 1.0, -1.0).status()),
+              ElementsAre(Violation{"w_per_kg[1][0]", "= nan: must be finite"}));
+}
+
 TEST(ContactMatrixTest, TakesDifferencesOfRounding) {
   std::array<double, 4> w = kPlane;
   w[2] += 1e-15;
@@ -46,10 +54,23 @@ TEST(EigenTest, MatricesOfEitherOrderGiveTheSameMechanism) {
   const Eigen::MatrixXd mass{{2.0, 0.5}, {0.5, 1.0}};
   const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> by_rows{{1.0, 2.0}, {3.0, 4.0}};
   const Eigen::VectorXd rates{{-1.0, 0.5}};
-  const Mechanism mechanism = MechanismFrom(mass, by_rows, rates);
+  const Mechanism mechanism = *MechanismFrom(mass, by_rows, rates);
   EXPECT_THAT(mechanism.mass_matrix, ElementsAre(2.0, 0.5, 0.5, 1.0));
   EXPECT_THAT(mechanism.jacobian, ElementsAre(1.0, 2.0, 3.0, 4.0));
   EXPECT_THAT(mechanism.rates, ElementsAre(-1.0, 0.5));
+}
+
+TEST(EigenTest, ShapesThatDoNotFitAreNamed) {
+  const Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(4, 4), jacobian = Eigen::MatrixXd::Ones(2, 4);
+  const Eigen::VectorXd rates = Eigen::VectorXd::Ones(4);
+  EXPECT_TRUE(MechanismFrom(mass, jacobian, rates).ok());
+  const absl::Status transposed = MechanismFrom(mass, jacobian.transpose(), rates).status();
+  EXPECT_EQ(ViolationsOf(transposed).at(0),
+            (Violation{"mechanism.jacobian", "is 4 x 2: must be 2 x 4 or 3 x 4 for 4 rates"}));
+  // As many entries as a matrix that fits.
+  const absl::Status flat = MechanismFrom(mass.reshaped(2, 8), jacobian.reshaped(4, 2), rates).status();
+  ASSERT_EQ(ViolationsOf(flat).size(), 2);
+  EXPECT_EQ(ViolationsOf(flat)[0], (Violation{"mechanism.mass_matrix", "is 2 x 8: must be 4 x 4 for 4 rates"}));
 }
 
 TEST(EigenTest, TurnsAWorldJacobianIntoTheFrameOfTheContact) {

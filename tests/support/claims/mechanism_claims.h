@@ -58,7 +58,7 @@ inline Scene SceneAtRandom(bool in_space, double decades, RandomScenes& random) 
   Eigen::VectorXd rates(n);
   for (double& rate : rates) rate = random.Uniform(-2.0, 2.0);
   if ((jacobian * rates)(in_space ? 2 : 1) > 0.0) rates = -rates;
-  Mechanism mechanism = MechanismFrom(MassOf(n, decades, random), jacobian, rates);
+  Mechanism mechanism = *MechanismFrom(MassOf(n, decades, random), jacobian, rates);
   if (n > 5 && random.OneIn(3)) mechanism.kept_coordinates = {1, 4};
   const double coefficient = random.Uniform(0.0, 1.0);
   const int law = static_cast<int>(random.Uniform(0.0, 2.999));
