@@ -36,7 +36,7 @@ class CallContext {
     if (options.deadline.has_value()) {
       // The difference to a time long past would overflow.
       const auto now = std::chrono::steady_clock::now();
-      const std::chrono::nanoseconds given = std::max(*options.deadline, now) - now;
+      const std::chrono::nanoseconds given = std::max(*options.deadline, now - kLongestTime) - now;
       left = std::min(given, left.value_or(given));
     }
     if (IsStopped(options)) context_.TryCancel();

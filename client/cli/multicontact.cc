@@ -114,17 +114,6 @@ absl::Status CheckMethods(const MultiContactOptions& options) {
   return absl::OkStatus();
 }
 
-// Errors: INVALID_ARGUMENT for a function with the name of another output.
-absl::Status CheckNames(const MultiContactRequest& request, const MultiContactAnswer& answer) {
-  for (const LinearOutput& output : request.outputs) {
-    const auto has_its_name = [&output](const PossibleRange& range) { return range.output == output.name; };
-    if (std::count_if(answer.possible.begin(), answer.possible.end(), has_its_name) > 1) {
-      return InputError("--function", output.name, "have a name that no other output has");
-    }
-  }
-  return absl::OkStatus();
-}
-
 absl::Status RunMultiContact(const MultiContactOptions& options) {
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   if (absl::Status status = CheckMethods(options); !status.ok()) return status;
@@ -134,9 +123,6 @@ absl::Status RunMultiContact(const MultiContactOptions& options) {
   if (!request.ok()) return request.status();
   const absl::StatusOr<MultiContactResponse> response = (*solver)->MultiContact(*request);
   if (!response.ok()) return response.status();
-  for (const MultiContactAnswer& answer : response->answers) {
-    if (absl::Status status = CheckNames(*request, answer); !status.ok()) return status;
-  }
   absl::Status written = WriteAnswer(
       options.common, *response, [&] { return MultiContactText(*request, *response); },
       [&] { return MultiContactCsv(*request, *response); });

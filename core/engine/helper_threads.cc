@@ -9,20 +9,12 @@
 #include <utility>
 
 namespace ricochet {
-namespace {
 
-int CountCores() {
+int AvailableCores() {
   cpu_set_t cores;
   // It fails on a machine with more than 1024.
   if (sched_getaffinity(0, sizeof(cores), &cores) == 0) return CPU_COUNT(&cores);
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-}  // namespace
-
-int AvailableCores() {
-  static const int cores = CountCores();
-  return cores;
 }
 
 HelperThreads::HelperThreads(int most) : most_(most), process_(getpid()), pool_(std::make_unique<Pool>()) {}

@@ -33,6 +33,7 @@ constexpr std::pair<const char*, const char*> kRequestFlags[] = {{"relative_tole
                                                                  {"time_limit_s", "--time-limit"},
                                                                  {"velocity_uncertainty_m_s", "--uncertainty"},
                                                                  {"states[", "--state"},
+                                                                 {"outputs[", "--function"},
                                                                  {"stiffness_range.", "--stiffness-ratio"},
                                                                  {"contact_velocity.", "--observed-velocity"}};
 

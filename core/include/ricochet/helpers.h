@@ -10,7 +10,7 @@
 
 namespace ricochet {
 
-// Returns the number of cores that this process may use, >= 1.
+// Returns the number of cores that this thread may use, >= 1.
 int AvailableCores();
 
 // Thread safety: every method may be called from several threads at once.

@@ -205,9 +205,11 @@ const std::vector<Case>& Cases() {
        }},
       {"OutputsOfSeveralContacts", &Limits::max_columns, 3, "outputs",
        [](const Solver& solver, size_t n) {
-         const LinearOutput output = {.name = "top", .coefficients = {1.0, 0.0, -1.0}};
-         return solver.MultiContact({.scene = FallingBlock(0.5, 0.5), .outputs = std::vector<LinearOutput>(n, output)})
-             .status();
+         MultiContactRequest request = {.scene = FallingBlock(0.5, 0.5)};
+         while (request.outputs.size() < n) {
+           request.outputs.push_back({std::string(request.outputs.size() + 1, 'x'), {1.0, 0.0, -1.0}});
+         }
+         return solver.MultiContact(request).status();
        }},
       {"RatesOfABatch", &Limits::max_audit_rows, 7, "columns.rates_after[0].rates_rad_s",
        [](const Solver& solver, size_t n) {
