@@ -17,16 +17,16 @@ std::atomic<int> reductions = 0;  // A sweep may be helped by other threads.
 
 }  // namespace
 
-// The linker sends calls of ricochet::Reduce(const Scene&) here: see --wrap in the CMakeLists.txt.
-extern "C" {
-// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
-ricochet::AnyReduction __real__ZN8ricochet6ReduceERKNS_5SceneE(const ricochet::Scene& scene);
-ricochet::AnyReduction __wrap__ZN8ricochet6ReduceERKNS_5SceneE(const ricochet::Scene& scene) {
+// The linker sends calls of ricochet::Reduce(const Scene&) to the second of these, and calls of the first to it: see
+// --wrap in the CMakeLists.txt.
+namespace counted {
+ricochet::AnyReduction ReduceAsBefore(const ricochet::Scene& scene) asm("__real__ZN8ricochet6ReduceERKNS_5SceneE");
+ricochet::AnyReduction CountAndReduce(const ricochet::Scene& scene) asm("__wrap__ZN8ricochet6ReduceERKNS_5SceneE");
+ricochet::AnyReduction CountAndReduce(const ricochet::Scene& scene) {
   ++reductions;
-  return __real__ZN8ricochet6ReduceERKNS_5SceneE(scene);
+  return ReduceAsBefore(scene);
 }
-// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
-}
+}  // namespace counted
 
 namespace ricochet {
 namespace {
