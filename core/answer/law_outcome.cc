@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -70,6 +71,13 @@ void AddAlternatives(const laws::ImpactLawResult& result, Outcome& outcome) {
                         "; the answer is the one whose friction does the least work.")});
 }
 
+// The largest term of the slip after beside u0. Chatterjee's and Ruina's law alone may leave little of it.
+double CoupledSlip(const ImpactLaw& law, const PlanarProblem& problem) {
+  const auto* const by_ratios = std::get_if<ChatterjeeRuinaLaw>(&law);
+  if (by_ratios == nullptr) return 0.0;
+  return std::abs((by_ratios->e - by_ratios->e_t) * problem.v0 * (problem.w.tn / problem.w.nn));
+}
+
 std::vector<Event> TimelineOf(const PlanarReduction& reduction, Regime regime, const laws::ImpactSolution& solution) {
   if (regime != Regime::kByLaw) return {};
   return {
@@ -89,7 +97,9 @@ absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, 
     solution = result.solutions.front();
     outcome.coefficients.newton = 0.0 - solution.v1 / reduction.v0;
     outcome.coefficients.tangential = solution.tau1 == 0.0 ? 0.0 : solution.f / solution.tau1;
-    outcome.accuracy.relative_error = RelativeToBefore<1>(kError, reduction, {solution.u1}, solution.v1);
+    const double before = std::max(std::abs(reduction.u0[0]), std::abs(reduction.v0));
+    const double error = kError * std::max(1.0, CoupledSlip(law, problem) / before);
+    outcome.accuracy.relative_error = RelativeToBefore<1>(error, reduction, {solution.u1}, solution.v1);
   }
   outcome.accuracy.kind = AccuracyKind::kEstimate;
   outcome.w_rank = problem.w.Rank();

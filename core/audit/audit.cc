@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "core/audit/coulomb_path.h"
@@ -356,8 +357,12 @@ AuditReport AuditRankOne(const Contact<2>& contact, const RangeDirection& range,
   const double v0 = contact.before[1];
   const double component = range.t * u1 + range.n * v1;
   const double component_error = std::abs(range.t) * error[0] + range.n * error[1];
-  // Where v+ is in the range it is its own nearest point, which needs no rounded projection.
-  const bool in_range = std::abs(range.n * u1 - range.t * v1) <= range.n * error[0] + std::abs(range.t) * error[1];
+  // Where v+ is in the range it is its own nearest point, which needs no rounded projection. A contact that separates
+  // keeps its velocity, which may lie beside the range.
+  const auto [u0, v_before] = contact.before;
+  const bool in_range =
+      v_before >= 0.0 ? std::abs(u1 - u0) <= error[0] && std::abs(v1 - v_before) <= error[1]
+                      : std::abs(range.n * u1 - range.t * v1) <= range.n * error[0] + std::abs(range.t) * error[1];
   const double nearest = in_range && contact.uncertainty == 0.0 ? v1 : component * range.n;
   const PathPoint point = path_at(std::max(nearest, v0));
   const PathPoint moved_back = path_at(std::max(nearest - component_error * range.n, v0));
@@ -431,8 +436,9 @@ PathPoint PendulumAt(pendulum::Problem problem, double omega) {
   return compressing ? PendulumCompression(problem, impact, omega) : EndOf(impact);
 }
 
-// NearestPoint searches the point of a spatial path nearest to v+, for tau in [0, end]: the best of equal steps, then
-// golden section around it. Each step solves an impact, and `stopped` is asked before each.
+// NearestPoint searches the point of a spatial path nearest to v+, for tau in [0, end]: golden section around each step
+// that lies nearer than its neighbours. Steps are equal, and in proportion to tau towards the start, as the end may lie
+// far beyond the impact. Each solves an impact, and `stopped` is asked before each.
 class NearestPoint {
  public:
   NearestPoint(const spatial::Problem& problem, const Contact<3>& contact, absl::FunctionRef<bool()> stopped)
@@ -445,14 +451,29 @@ class NearestPoint {
   // Returns tau of the nearest point; nothing once it was stopped.
   std::optional<double> Find(double end) const {
     constexpr int kSteps = 64;
-    int best = 0;
-    double least = DistanceAt(0.0);
+    constexpr double kRatio = 0.75;
+    std::vector<double> steps = {0.0};
+    double small = end / kSteps;
     for (int i = 1; i <= kSteps; ++i) {
-      if (stopped_()) return std::nullopt;
-      const double distance = DistanceAt(end * i / kSteps);
-      if (distance < least) best = i, least = distance;
+      steps.push_back(end * i / kSteps);
+      steps.push_back(small *= kRatio);
     }
-    return Refined(end * std::max(best - 1, 0) / kSteps, end * std::min(best + 1, kSteps) / kSteps);
+    std::sort(steps.begin(), steps.end());
+    std::vector<double> distances;
+    for (const double tau : steps) {
+      if (stopped_()) return std::nullopt;
+      distances.push_back(DistanceAt(tau));
+    }
+    double best = 0.0, least = distances.front();
+    for (size_t i = 0; i < steps.size(); ++i) {
+      const size_t before = i == 0 ? i : i - 1, after = std::min(i + 1, steps.size() - 1);
+      if (distances[i] > distances[before] || distances[i] > distances[after]) continue;
+      const std::optional<double> tau = Refined(steps[before], steps[after]);
+      if (!tau.has_value()) return std::nullopt;
+      const double distance = DistanceAt(*tau);
+      if (distance < least) best = *tau, least = distance;
+    }
+    return best;
   }
 
  private:
@@ -506,11 +527,11 @@ absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& proble
     const std::optional<double> tau = search.Find(PathWhereNormalIs(problem, farthest).tau);
     if (!tau.has_value()) return absl::CancelledError("the audit was stopped by its caller");
     point = PathAt(problem, *tau);
-    moved_back = MovedBack(problem, point, error);
+    moved_back = MovedBack(problem, point, std::sqrt(3.0) * error);
   }
   AuditReport report = AuditPoint(point, moved_back, contact, error);
   const double distance = search.DistanceTo(point);
-  report.unexplained = distance > std::sqrt(3.0) * error;
+  report.unexplained = distance > std::sqrt(3.0) * (error + point.velocity_error);
   report.distance = report.unexplained ? distance : 0.0;
   Judge(report);
   return report;

@@ -49,8 +49,8 @@ void FillFrom(const Values& of, int64_t first, absl::Span<double> values) {
 void FillFrom(const Linspace& of, int64_t first, absl::Span<double> values) {
   FillBetween(of, first, values);
   const int64_t last = of.count - 1 - first;
-  if (first == 0 && !values.empty()) values.front() = of.start;
   if (last < static_cast<int64_t>(values.size())) values[static_cast<size_t>(last)] = of.stop;
+  if (first == 0 && !values.empty()) values.front() = of.start;  // The only value is this, too.
 }
 void FillFrom(const Logspace& of, int64_t first, absl::Span<double> values) {
   const Linspace logarithms = LogarithmsOf(of);

@@ -60,7 +60,7 @@ Call::~Call() {
 bool Call::IsInterrupted() {
   if (raised_.has_value()) return true;
   if (!IsTimeToLook()) return false;
-  const py::gil_scoped_acquire with_lock;
+  const WithLock with_lock;
   return HandleSignals();
 }
 

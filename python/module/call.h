@@ -26,6 +26,7 @@
 
 #include "absl/status/statusor.h"
 #include "python/module/exceptions.h"
+#include "python/module/lock.h"
 #include "ricochet/solver.h"
 
 namespace ricochet::python {
@@ -81,7 +82,7 @@ class Call {
 
   template <typename Compute>
   auto RunHere(Compute& compute) {
-    const py::gil_scoped_release without_lock;
+    const WithoutLock without_lock;
     return compute();
   }
 
@@ -91,7 +92,7 @@ class Call {
     for (;;) {
       bool is_ready = false;
       {
-        const py::gil_scoped_release without_lock;
+        const WithoutLock without_lock;
         is_ready = answer.wait_for(kBetweenLooks) == std::future_status::ready;
       }
       // The parts of a stream may each be ready at once.

@@ -24,8 +24,11 @@ namespace {
 using Numbers = py::array_t<double, py::array::c_style>;
 using Vector = std::array<double, 3>;
 
-// States that a thread reduces between two looks at the signals of Python: some 10 ms of work.
-constexpr int64_t kPiece = 2048;
+// States of `n` coordinates that a thread reduces between two looks at the signals of Python: some 10 ms of work.
+int64_t PieceOf(size_t n) {
+  const auto work = static_cast<int64_t>(n * n * n);
+  return std::clamp<int64_t>((int64_t{1} << 20) / std::max<int64_t>(work, 1), 1, 2048);
+}
 
 double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -37,16 +40,19 @@ Vector Scaled(Vector vector) {
   return vector;
 }
 
-// The unit vector along the part of `vector` that is perpendicular to `normal`. It is made twice, because the first
-// difference may cancel.
-Vector UnitAcross(Vector vector, const Vector& normal) {
+// The unit vector along the part of `vector` that is perpendicular to `normal`, if there is such a part. It is made
+// twice, because the first difference may cancel. Where it leaves rounding alone, the second takes away most of that.
+std::optional<Vector> UnitAcross(Vector vector, const Vector& normal) {
+  double length = 0.0;
   for (int i = 0; i < 2; ++i) {
     vector = Scaled(vector);
     const double along = Dot(vector, normal);
     for (size_t k = 0; k < 3; ++k) vector[k] -= along * normal[k];
-    const double length = std::sqrt(Dot(vector, vector));
+    length = std::sqrt(Dot(vector, vector));
+    if (!(length > 0.0)) return std::nullopt;
     for (double& component : vector) component /= length;
   }
+  if (!(length > 0.25)) return std::nullopt;
   return vector;
 }
 
@@ -74,8 +80,9 @@ std::optional<Vector> OnlySlip(const Velocities& velocities, const Vector& norma
     square = std::max(square, Dot(part, part));
   }
   if (!(square > 0.0) || !std::isfinite(square)) return std::nullopt;
-  const Vector direction = UnitAcross(velocities.Of(largest), normal);
-  const Vector side = Cross(normal, direction);
+  const std::optional<Vector> direction = UnitAcross(velocities.Of(largest), normal);
+  if (!direction.has_value()) return std::nullopt;
+  const Vector side = Cross(normal, *direction);
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
   for (size_t k = 0; k < velocities.n; ++k) {
     const Vector velocity = velocities.Of(k);
@@ -101,15 +108,18 @@ struct Axes {
 Axes AxesOf(const Velocities& velocities, const Vector& velocity, const Vector& normal) {
   const std::optional<Vector> only = OnlySlip(velocities, normal);
   const double sign = only.has_value() && Dot(*only, velocity) < 0.0 ? -1.0 : 1.0;
-  Vector t1 = UnitAcross(only.value_or(velocity), normal);
-  for (double& component : t1) component *= sign;
-  if (!std::isfinite(Dot(t1, t1))) {
+  std::optional<Vector> t1 = UnitAcross(only.value_or(velocity), normal);
+  if (!t1.has_value()) {
     Vector any = {};
     const auto smaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
     any[static_cast<size_t>(std::min_element(normal.begin(), normal.end(), smaller) - normal.begin())] = 1.0;
     t1 = UnitAcross(any, normal);
   }
-  return {.of = {t1, Cross(normal, t1), normal}, .is_planar = only.has_value()};
+  // A normal that is no direction has no axes.
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const Vector slip = t1.value_or(Vector{kNone, kNone, kNone});
+  const Vector along = {sign * slip[0], sign * slip[1], sign * slip[2]};
+  return {.of = {along, Cross(normal, along), normal}, .is_planar = only.has_value()};
 }
 
 // The arrays of a call: those of the caller, and those of the answer.
@@ -166,10 +176,10 @@ void ReducePart(const States& states, int64_t first, int64_t end) {
 
 // Reduces the states on all cores and lets Python handle its signals meanwhile.
 void ReduceAll(const States& states, int64_t count) {
-  const int64_t step = kPiece * AvailableCores();
+  const int64_t step = PieceOf(states.coordinates) * AvailableCores();
   for (int64_t first = 0; first < count; first += step) {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    const py::gil_scoped_release without_lock;
+    const WithoutLock without_lock;
     const int64_t end = std::min(count, first + step);
     const int64_t piece = (end - first + AvailableCores() - 1) / AvailableCores();
     std::vector<std::future<void>> others;

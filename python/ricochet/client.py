@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import sys
 import threading
@@ -55,7 +56,7 @@ class Client:
 
     Args:
         server: ``"HOST:PORT"`` or ``"unix:PATH"``; several with commas between them stand in for each other. None: the
-            engine in this process.
+            engine in this process, whatever the environment and the file name.
         deadline: the time that one call may take, s, or ``"250ms"``, ``"5m"``; by default any in this process and for a
             sweep, 10 s for other calls of a server.
         max_receive: bytes of one message of an answer, in [1, 2147483647]; by default 67108864.
@@ -73,11 +74,12 @@ class Client:
     """
 
     def __init__(
-        self, server: str = "", *, deadline: str | float = "", max_receive: str | int = "", tls: str | bool = "",
+        self, server: str | None = "", *, deadline: str | float = "", max_receive: str | int = "", tls: str | bool = "",
         tls_ca: str = "", tls_cert: str = "", tls_key: str = "", server_name: str = "", token_file: str = "",
         token: str = "", config: str = "",
     ) -> None:
-        options = {name: value for name, value in locals().items() if name != "self" and value is not None}
+        options = {name: value for name, value in locals().items()
+                   if name != "self" and (value is not None or name == "server")}
         converted = {"deadline": str(deadline), "max_receive": str(max_receive), "tls": str(tls).lower()}
         self._given = {name: converted.get(name, value) for name, value in options.items()}
         self._options: dict[str, Any] | None = None
@@ -99,6 +101,10 @@ class Client:
                 _core.check_options(options)
             self._options = options
         return self._options
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A copy, or what another process gets, has the same options and a connection of its own."""
+        return _restored, (self._given,)
 
     def __enter__(self) -> "Client":
         return self
@@ -365,10 +371,13 @@ class Client:
                 if "sigma" in measured[path]:
                     values.refuse(what, f"= {path!r}: is {path}.sigma of the table a second time")
                 measured[path]["sigma"] = np.atleast_1d(values.column(given, f"{path}.sigma"))
-        given_starts = (names.by_full_name(unknown, fields, "unknown") if isinstance(unknown, Mapping)
-                        else dict.fromkeys(values.names(unknown, "unknown")))
-        paths = names.full_names(given_starts, fields, "unknown")
-        unknowns = [{"path": path, "start": start} for path, start in zip(paths, given_starts.values())]
+        starts: Iterable[Any] = itertools.repeat(None)
+        if isinstance(unknown, Mapping):
+            unknown = names.by_full_name(unknown, fields, "unknown")
+            starts = unknown.values()
+        paths = names.full_names(unknown if isinstance(unknown, Mapping) else values.names(unknown, "unknown"), fields,
+                                 "unknown")
+        unknowns = [{"path": path, "start": start} for path, start in zip(paths, starts)]
         for path, ends in names.by_name_of(bounds or {}, paths, fields, "bounds", "an unknown").items():
             pair = list(ends) if values.is_list(ends) else []
             if len(pair) != 2:
@@ -655,6 +664,16 @@ class Client:
         return int(limit)
 
 
+def _restored(given: dict[str, Any]) -> Client:
+    return Client(**given)
+
+
+def _module_client() -> Client:
+    import ricochet
+
+    return ricochet._client
+
+
 class ModuleClient(Client):
     """The client of the package's own functions: it reads its options from the environment at the first call."""
 
@@ -662,6 +681,9 @@ class ModuleClient(Client):
         self._given = {}
         self._options = None
         self._start()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _module_client, ()
 
     def close(self) -> None:
         """Closes the connection to a server. The next call reads the environment and opens another."""

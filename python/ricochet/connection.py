@@ -16,20 +16,22 @@ _UNITS_S = {"": 1.0, "s": 1.0, "ms": 1e-3, "m": 60.0, "h": 3600.0}
 _YEAR_S = 365.0 * 24 * 3600
 
 
-def resolve(given: Mapping[str, str]) -> dict[str, Any]:
+def resolve(given: Mapping[str, str | None]) -> dict[str, Any]:
     """Returns the options as the module in C++ takes them; an empty text is not set.
 
     An argument wins over the environment, ``RICOCHET_TLS_CA`` for ``tls_ca``, which wins over a line ``tls-ca =
     "FILE"`` of the TOML file that ``config`` or ``RICOCHET_CONFIG`` names.
     """
     for name, value in given.items():
-        if not isinstance(value, str):
+        if not isinstance(value, str) and not (name == "server" and value is None):
             refuse(name, f"= {shown(value)}: must be a text")
     config = given.get("config") or os.environ.get("RICOCHET_CONFIG")
     lines = _read_config(config) if config else {}
     options: dict[str, Any] = {
         name: given.get(name) or os.environ.get(f"RICOCHET_{name.upper()}") or lines.get(name, "") for name in _NAMES
     }
+    if given.get("server", "") is None:  # The engine in this process is asked for.
+        options["server"] = ""
     max_receive = options["max_receive"] or _DEFAULT_MAX_RECEIVE
     if not re.fullmatch(r"\d{1,18}", max_receive):
         refuse("max_receive", f"= {max_receive}: must be a whole number of bytes")

@@ -24,6 +24,10 @@ def read_scene(path: str | os.PathLike[str]) -> dict[str, Any]:
     with open(path, "rb") as file:
         text = file.read().removeprefix(codecs.BOM_UTF8)
     try:
+        text.decode()
+    except UnicodeDecodeError as error:
+        refuse(os.fspath(path), f"is not UTF-8 at byte {error.start}")
+    try:
         return _core.parse_scene(os.fspath(path), text)
     except ValueError as error:
         refuse(os.fspath(path), str(error))

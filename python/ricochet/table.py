@@ -19,7 +19,20 @@ if TYPE_CHECKING:
     Numbers = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+def _is_equal(one: Any, other: Any) -> bool:
+    """Whether two values are equal, arrays number by number; NaN is equal to NaN."""
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, np.ndarray):
+        return one.dtype == other.dtype and np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+    if isinstance(one, dict) and not isinstance(one, Record):
+        return one.keys() == other.keys() and all(_is_equal(value, other[name]) for name, value in one.items())
+    if isinstance(one, (Codes, Table)):
+        return _is_equal(vars(one), vars(other))
+    return bool(one.equals(other) if hasattr(one, "equals") else one == other)
+
+
+@dataclass(frozen=True, eq=False)
 class Codes:
     """One name for each row, as numbers into a list of names."""
 
@@ -27,6 +40,9 @@ class Codes:
     """One number for each row."""
     names: list[str]
     """The name of each number."""
+
+    def __eq__(self, other: object) -> bool:
+        return _is_equal(self, other)
 
     def __len__(self) -> int:
         return len(self.numbers)
@@ -51,7 +67,7 @@ class Codes:
         return equal
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Table:
     """Rows of numbers: the points of a sweep, the impacts of a batch or the observations of an audit."""
 
@@ -70,6 +86,9 @@ class Table:
     """Of a sweep: the request and the engine, by the names that the NetCDF files of the command line have."""
     index: Any = None
     """The index of the pandas frame or series that the rows are from; None if they are from others."""
+
+    def __eq__(self, other: object) -> bool:
+        return _is_equal(self, other)
 
     def __len__(self) -> int:
         return len(next(iter(self.codes.values())))

@@ -127,6 +127,8 @@ def column(values: Any, path: str) -> Numbers:
     Raises:
         InvalidRequest: names the first entry that is no number.
     """
+    if isinstance(values, memoryview):
+        values = np.asarray(values)
     # Numpy would make numbers of a list whatever it holds: of [0.1, True], of [0.1, "2"] and of what is masked.
     is_mixed = isinstance(values, np.ma.MaskedArray) or (
         not hasattr(values, "dtype") and is_list(values) and not set(map(type, values)) <= {float})

@@ -1,5 +1,6 @@
 """at_contact: mechanisms as a library of multibody dynamics gives them, against other systems and against mechanics."""
 
+import itertools
 import unittest
 import warnings
 
@@ -76,6 +77,16 @@ class SingleStates(Case):
     def test_without_slip_any_direction_will_do(self):
         after = ricochet.at_contact(np.eye(3), np.eye(3), [0, 0, -1], [0, 0, 1], friction=0.5, newton=0.5)
         np.testing.assert_array_equal(after.rates_after, [0, 0, 0.5])
+
+    def test_a_head_on_impact_is_right_in_any_direction(self):
+        for normal in itertools.product(range(-2, 3), repeat=3):
+            if any(normal):
+                unit = np.array(normal) / np.linalg.norm(normal)
+                after = ricochet.at_contact(np.eye(3), np.eye(3), -unit, normal, friction=0.7, energetic=1)
+                np.testing.assert_allclose(after.rates_after, unit, atol=1e-15)
+                self.assertEqual(after.answer.w_rank, 3)
+        slider = ricochet.at_contact([[2.0]], [[1], [1], [0]], [-1], [1, 1, 0], friction=0.5, energetic=1)
+        np.testing.assert_allclose(slider.rates_after, [1], atol=1e-15)
 
     def test_a_normal_may_have_any_length(self):
         direction = np.array([0.2, -0.3, 0.9])

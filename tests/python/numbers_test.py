@@ -1,8 +1,10 @@
 """The numbers that arrive in Python, against references of 25 digits and closed forms."""
 
 import math
+import pickle
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -150,6 +152,11 @@ class Sweeps(unittest.TestCase):
             rates = table.inputs()["pendulum.omega_minus_rad_s"]
             np.testing.assert_array_equal(np.abs(table["rates_after_rad_s[0]"]), np.abs(rates))
 
+    def test_an_axis_of_one_value_has_its_start(self):
+        axes = {"pendulum.omega_minus_rad_s": ricochet.Linspace(-2, -3, 1)}
+        table = ricochet.sweep({**PENDULUM, "friction": {}}, axes, ["rates_after_rad_s[0]"], form="table")
+        np.testing.assert_array_equal(table.axes["pendulum.omega_minus_rad_s"], [-2])
+
     def test_points_of_many_chunks_are_in_order(self):
         done = []
         table = ricochet.sweep(
@@ -175,6 +182,15 @@ class Batches(unittest.TestCase):
             ["rates_after_rad_s[0]"],
         )
         np.testing.assert_array_equal(table["rates_after_rad_s[0]"], -rates)
+
+    def test_tables_are_equal_if_their_numbers_are(self):
+        def table(a):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", ricochet.InvalidRows)
+                return ricochet.solve_batch(PENDULUM, {"pendulum.a_m": [0.3, a]}, ["coefficients.newton"])
+        self.assertEqual(table(-1), table(-1))  # A bad row has NaN.
+        self.assertEqual(table(0.4), pickle.loads(pickle.dumps(table(0.4))))
+        self.assertNotEqual(table(0.4), table(0.5))
 
     def test_a_bad_row_has_its_number_and_its_reason(self):
         table = ricochet.solve_batch(PENDULUM, {"pendulum.a_m": [0.3, -1, 0.3]}, ["coefficients.newton"])

@@ -82,6 +82,28 @@ class Alone(unittest.TestCase):
         """
         self.assertEqual(run(code, PATH="/nowhere").split(), ["0.7071067811865475", "0.0", "1.0"])
 
+    def test_daemon_threads_that_compute_do_not_disturb_the_end(self):
+        for call in ("solve(P)", "sweep(P, {'mu': [.1, .2]}, 'newton')", "solve_batch(P, {'mu': [.1] * 50000}, 'newton')"):
+            printed = run(f"""
+                import threading, time, ricochet
+                P = {PENDULUM}
+                def work():
+                    while True:
+                        ricochet.{call}
+                for _ in range(2):
+                    threading.Thread(target=work, daemon=True).start()
+                time.sleep(0.2)
+                """)
+            self.assertEqual(printed, "", call)
+
+    def test_functions_and_clients_go_to_other_processes(self):
+        for solve in (ricochet.solve, ricochet.Client().solve):
+            self.assertEqual(pickle.loads(pickle.dumps(solve))(PENDULUM), solve(PENDULUM))
+
+    def test_none_is_the_engine_of_this_process_whatever_the_environment_says(self):
+        with mock.patch.dict(os.environ, RICOCHET_SERVER="127.0.0.1:1"):
+            self.assertEqual(ricochet.Client(server=None).solve(PENDULUM), ricochet.solve(PENDULUM))
+
     def test_processes_end_without_a_word(self):
         code = f"import ricochet; ricochet.solve({PENDULUM!r}); client = ricochet.Client(); client.solve({PENDULUM!r})"
         self.assertEqual(run(code), "")

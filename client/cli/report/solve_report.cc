@@ -37,6 +37,7 @@ const char* LimitText(LimitKind kind) {
 }
 
 std::string Verdict(const Outcome& outcome) {
+  if (outcome.regime == Regime::kNoSolution) return "";  // There is no outcome to judge.
   if (outcome.admissible) return "Admissible.\n";
   const bool friction_alone =
       outcome.broken_limits.size() == 1 && outcome.broken_limits.front().kind == LimitKind::kFriction;

@@ -30,8 +30,9 @@ ImpactLawResult SolveChatterjeeRuina(const PlanarProblem& input, double e, doubl
     return AtMostOne(impact.AtRatio(on_cone));
   }
   const double tau1 = std::fma(-f, input.w.tn, impact.normal_change()) / input.w.nn;
+  // -(e_t (u0 wnn - v0 wtn) + e v0 wtn), of which nothing cancels for e = e_t.
   const double slip = impact.rank_one() ? impact.tangential_numerator()
-                                        : -std::fma(e_t, impact.frictionless_slip(), e * input.v0 * input.w.tn);
+                                        : -std::fma(e_t * input.u0, input.w.nn, (e - e_t) * input.v0 * input.w.tn);
   return AtMostOne(impact.Solution(f, tau1, slip / input.w.nn));
 }
 

@@ -737,6 +737,74 @@ TEST(AuditStopTest, ABatchLooksBeforeEachRow) {
 }
 
 // No impulse moves the contact along the second direction, so the nearest point of its path is searched for.
+absl::StatusOr<AuditResponse> AuditOf(const Scene& scene, const ContactVelocity& seen, double uncertainty) {
+  return AuditScene({.scene = scene, .observed = seen, .velocity_uncertainty_m_s = uncertainty}, Never);
+}
+
+Scene InSpace(const std::vector<double>& w, const std::vector<double>& tangential, double normal, double mu) {
+  return {.system = SpatialContact{.w_per_kg = w, .tangential_m_s = tangential, .normal_m_s = normal},
+          .friction = {.kinetic_coefficient = mu},
+          .restitution = EnergeticCoefficient{1.0}};
+}
+
+// The path passes the observed velocity at tau = 0.34, and goes on to 200 times that before its normal velocity tells
+// that it comes no nearer. The velocity is that of du/dtau = W (-mu u/|u|, 1) by a Runge-Kutta method of order 8.
+TEST(AuditDeficientTest, AnEarlyPointOfALongPathIsFound) {
+  const Scene scene = InSpace({2.0, -5.0, -1.0, 17.0, 4.0, 1.0}, {3.0, -6.0}, -1.0, 0.5);
+  const auto audit = AuditOf(scene, {{1.765917535881787, -1.7659175358817871}, 0.0}, 1e-3);
+  ASSERT_TRUE(audit.ok());
+  EXPECT_FALSE(audit->report.unexplained);
+  EXPECT_TRUE(audit->report.admissible);
+}
+
+TEST(AuditDeficientTest, OutcomesOfTheEngineAreExplained) {
+  const Scene scene = InSpace({20.0, 2.0, -8.0, 13.0, -20.0, 32.0}, {-4.0, 6.0}, -8.0, 0.1);
+  const auto audit = AuditOf(scene, {{-7.120838497144656, -3.969649072176089}, 7.734683232550296}, 0.0);
+  ASSERT_TRUE(audit.ok());
+  EXPECT_FALSE(audit->report.unexplained);
+}
+
+// An elastic impact along (1, 1, 1), each component of which is observed 0.0099 m/s too large.
+TEST(AuditDeficientTest, AnErrorOfEachComponentIsNoBrokenLimit) {
+  const Scene scene = InSpace({1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, {-1.0, -1.0}, -1.0, 0.1);
+  const ContactVelocity after = LocalSolver().Solve({.scene = scene})->outcome.contact_velocity_after;
+  const ContactVelocity seen = {{after.tangential_m_s[0] + 0.0099, after.tangential_m_s[1] + 0.0099},
+                                after.normal_m_s + 0.0099};
+  EXPECT_EQ(AuditOf(scene, seen, 0.01)->report[AuditLimit::kSharp].verdict, Verdict::kWithinUncertainty);
+  EXPECT_EQ(AuditOf(scene, seen, 0.005)->report[AuditLimit::kSharp].verdict, Verdict::kBroken);
+}
+
+TEST(AuditDeficientTest, AContactThatSeparatesBesideTheRangeKeepsItsVelocity) {
+  const Scene scene = {.system = PlanarContact{1.0, 1.0, 1.0, 2.5, 0.3}, .friction = {.kinetic_coefficient = 0.1}};
+  EXPECT_FALSE(AuditOf(scene, {{2.5}, 0.3}, 0.0)->report.unexplained);
+  EXPECT_TRUE(AuditOf(scene, {{2.6}, 0.3}, 0.01)->report.unexplained);
+}
+
+// Tangential compliance lets an impact keep more than the energetic coefficient of a rigid contact, and forces add
+// energy.
+TEST(AuditSceneTest, ContactsThatAreNotRigidAreRefused) {
+  Scene scene = {.system = PlanarContact{2.0, 1.0, 1.0, -2.0, -1.0},
+                 .friction = {.kinetic_coefficient = 2.0},
+                 .restitution = EnergeticCoefficient{1.0},
+                 .compliance = Compliance{.tangential_ratio_squared = 4.0}};
+  const auto fields = [](const absl::Status& status) {
+    std::vector<std::string> names;
+    for (const Violation& violation : ViolationsOf(status)) names.push_back(violation.field);
+    return names;
+  };
+  const ContactVelocity seen = {{1.0}, 1.0};
+  const std::vector<std::string> compliance = {"compliance.tangential_ratio_squared"};
+  EXPECT_EQ(fields(AuditOf(scene, seen, 0.0).status()), compliance);
+  EXPECT_EQ(fields(LocalSolver().Bounds({.scene = scene}).status()), compliance);
+  scene.compliance = Compliance{.normal = LinearSpring{100.0}};
+  EXPECT_TRUE(AuditOf(scene, seen, 0.0).ok());
+  EXPECT_TRUE(LocalSolver().Bounds({.scene = scene}).ok());
+  scene.finite_forces = ContactAcceleration{.tangential_m_s2 = 10.0};
+  const std::vector<std::string> forces = {"finite_forces"};
+  EXPECT_EQ(fields(AuditOf(scene, seen, 0.0).status()), forces);
+  EXPECT_EQ(fields(LocalSolver().Bounds({.scene = scene}).status()), forces);
+}
+
 TEST(AuditStopTest, TheSearchOfARankDeficientSpatialPathEndsAtItsNextStep) {
   const spatial::Problem problem{
       .w11 = 2.0, .w13 = 1.0, .w33 = 3.0, .u0 = {1.0, 0.0}, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3};

@@ -76,6 +76,9 @@ TEST(GridTest, LinspaceHasExactEndsAndEvenSteps) {
   EXPECT_NEAR(AxisValue(Lin(0.1, 0.7, 4), 1), 0.3, 1e-16);
   EXPECT_EQ(AxisValue(Lin(5.0, -5.0, 11), 5), 0.0);
   EXPECT_EQ(AxisValue(Lin(3.0, 9.0, 1), 0), 3.0);
+  double only = 0.0;
+  AxisValues(Lin(3.0, 9.0, 1), 0, absl::MakeSpan(&only, 1));
+  EXPECT_EQ(only, 3.0);
 }
 
 // The values are those of numpy.linspace, which tests/client/cli/arrays_test.py asks for more.

@@ -98,6 +98,18 @@ TEST(ChatterjeeRuinaTest, SlantedRodOnTheConeByHand) {
 }
 
 // W = [1, 1; 1, 1 + d], d = 2^-40, v = (-1, -1): det = d, G = e - d, T = e. A rounded c would leave G ten digits.
+// With e_t = e the slip turns round times e, whatever W couples.
+TEST(ChatterjeeRuinaTest, EqualCoefficientsTurnTheSlipHoweverStrongTheCoupling) {
+  for (const double coupling : {1e2, 1e4, 1e6}) {
+    PlanarProblem in;
+    in.w = {.tt = 2.0 * coupling * coupling, .tn = coupling, .nn = 1.0};
+    in.u0 = 0.1;
+    in.v0 = -0.3;
+    in.mu = in.mu_static = 1000.0;
+    EXPECT_NEAR(SolveChatterjeeRuina(in, 1.0, 1.0).solutions.at(0).u1, -0.1, 1e-16) << coupling;
+  }
+}
+
 TEST(KaneLevinsonTest, StickingImpulseIsExactNearRankOne) {
   const double d = 0x1p-40;
   const double e = 1e-6;

@@ -1,0 +1,18 @@
+// RequireRigid: names what makes a contact other than the rigid one without forces that audits and bounds know.
+
+#ifndef RICOCHET_CORE_SCENE_RIGID_H_
+#define RICOCHET_CORE_SCENE_RIGID_H_
+
+#include <vector>
+
+#include "ricochet/error.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+// A spring along the normal alone changes no velocity after the impact. `purpose` ends the rule: "for an audit".
+void RequireRigid(const Scene& scene, const char* purpose, std::vector<Violation>& violations);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_SCENE_RIGID_H_
