@@ -21,8 +21,7 @@ HelperThreads::HelperThreads(int most) : most_(most), process_(getpid()), pool_(
 
 HelperThreads::~HelperThreads() {
   if (IsForked()) {
-    static auto& left_for_ever = *new std::deque<std::unique_ptr<Pool>>;
-    left_for_ever.push_back(std::move(pool_));
+    static_cast<void>(pool_.release());  // Its threads are those of the parent.
     return;
   }
   {

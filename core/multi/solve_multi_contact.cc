@@ -267,7 +267,7 @@ class Answerer {
   // The part of the velocity that rounding of W leaves beside its range; 0 where it is no more than rounding itself.
   Eigen::VectorXd BesideRange() const {
     const Problem& problem = sorted_.problem;
-    const Eigen::VectorXd beside = (problem.v - metric_.g * metric_.y).cwiseAbs();
+    Eigen::VectorXd beside = (problem.v - metric_.g * metric_.y).cwiseAbs();
     const double rounding = 64.0 * static_cast<double>(beside.size()) * kEpsilon * problem.v.cwiseAbs().maxCoeff();
     if (beside.maxCoeff() <= rounding) return Eigen::VectorXd::Zero(beside.size());
     return beside;

@@ -69,7 +69,7 @@ class SpringFlow {
   double NormalByForce(int i, int j) const { return by_force_(2 * i + 1, j); }
   // The magnitude of the terms that this is a sum of.
   double SizeOfNormalByForce(int i, int j) const { return size_(2 * i + 1, j); }
-  double TangentialByForce(int i, int j) const { return by_force_(2 * i, j); }
+  double TangentialByForce(int i, int j) const { return by_force_(Eigen::Index{2} * i, j); }
   double FrictionByForce(int i, int j) const { return friction_(i, j); }
 
   const Series& velocity(int row) const { return v_[static_cast<size_t>(row)]; }
@@ -97,7 +97,7 @@ class SpringFlow {
   double h_ = 0.0;
   double growth_rate_ = 0.0;
   bool split_is_free_ = false;
-  std::array<Series, 2 * kMostContacts> v_;
+  std::array<Series, size_t{2} * kMostContacts> v_;
   std::array<Series, kMostContacts> f_, g_;
 };
 

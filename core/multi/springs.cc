@@ -30,8 +30,13 @@ size_t At(int i) { return static_cast<size_t>(i); }
 class Motion {
  public:
   Motion(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped)
-      : problem_(problem), mirror_(mirror), stopped_(stopped), k_(problem.k), result_(StartOf(problem)) {
-    state_.p = before_.p = tail_ = Vector::Zero(2 * k_);
+      : problem_(problem),
+        mirror_(mirror),
+        stopped_(stopped),
+        k_(problem.k),
+        rows_(2 * problem.k),
+        result_(StartOf(problem)) {
+    state_.p = before_.p = tail_ = Vector::Zero(rows_);
     roots_ = problem.w.diagonal().cwiseMax(0.0).cwiseSqrt();
     for (int i = 0; i < k_; ++i) modes_[At(i)].normal = NormalMode::kOpen;
   }
@@ -55,7 +60,11 @@ class Motion {
  private:
   // --- The state ---
 
-  double Normal(int i) const { return v_(2 * i + 1); }
+  // The places of the directions of a contact.
+  static int T(int i) { return 2 * i; }
+  static int N(int i) { return 2 * i + 1; }
+
+  double Normal(int i) const { return v_(N(i)); }
   bool IsClosed(int i) const { return modes_[At(i)].normal != NormalMode::kOpen; }
   bool HasFriction(int i) const { return problem_.laws[At(i)].mu > 0.0; }
 
@@ -66,11 +75,11 @@ class Motion {
       mirror_->Average(state_.f);
       mirror_->Average(state_.g);
     }
-    v_.resize(2 * k_);
-    noise_.resize(2 * k_);
-    for (int row = 0; row < 2 * k_; ++row) {
+    v_.resize(rows_);
+    noise_.resize(rows_);
+    for (int row = 0; row < rows_; ++row) {
       double sum = problem_.v(row), size = std::abs(sum);
-      for (int j = 0; j < 2 * k_; ++j) {
+      for (int j = 0; j < rows_; ++j) {
         const double term = problem_.w(row, j) * state_.p(j);
         sum += term;
         size += std::abs(term);
@@ -87,7 +96,7 @@ class Motion {
     const double force = state_.f[At(i)];
     std::vector<NormalMode> normals;
     const double v = Normal(i);
-    const double noise = noise_(2 * i + 1);
+    const double noise = noise_(N(i));
     if (force > 0.0) {
       if (v <= noise) normals.push_back(NormalMode::kLoading);
       if (v >= -noise && problem_.laws[At(i)].e > 0.0) normals.push_back(NormalMode::kUnloading);
@@ -97,9 +106,9 @@ class Motion {
       if (state_.g[At(i)] == 0.0 && v <= noise) normals.push_back(NormalMode::kLoading);
     }
     std::vector<int8_t> slips = {0, 1, -1};
-    const double u = v_(2 * i);
+    const double u = v_(T(i));
     if (!HasFriction(i)) slips = {0};
-    if (HasFriction(i) && std::abs(u) > noise_(2 * i)) slips = {static_cast<int8_t>(u > 0.0 ? 1 : -1)};
+    if (HasFriction(i) && std::abs(u) > noise_(T(i))) slips = {static_cast<int8_t>(u > 0.0 ? 1 : -1)};
     std::vector<ContactMode> options;
     for (const NormalMode normal : normals) {
       for (const int8_t slip : slips) options.push_back({normal, slip});
@@ -116,8 +125,8 @@ class Motion {
   void FindModes() {
     for (int i = 0; i < k_; ++i) {
       if (!HasFriction(i)) continue;
-      const double u = v_(2 * i);
-      if (std::abs(u) > noise_(2 * i)) modes_[At(i)].slip = static_cast<int8_t>(u > 0.0 ? 1 : -1);
+      const double u = v_(T(i));
+      if (std::abs(u) > noise_(T(i))) modes_[At(i)].slip = static_cast<int8_t>(u > 0.0 ? 1 : -1);
     }
     const int most_changes = 8 * k_ + 8;
     for (int change = 0; change < most_changes; ++change) {
@@ -215,7 +224,7 @@ class Motion {
       if (modes_[At(l)].slip == 0) {
         shorten(limit - tau, limit_slope - tau_slope);
         shorten(limit + tau, limit_slope + tau_slope);
-      } else if (std::abs(v_(2 * l)) <= noise_(2 * l)) {
+      } else if (std::abs(v_(T(l))) <= noise_(T(l))) {
         shorten(modes_[At(l)].slip * acceleration, modes_[At(l)].slip * u_slope);
       }
     }
@@ -318,11 +327,11 @@ class Motion {
     bool presses = false;
     for (int i = 0; i < k_; ++i) {
       if (!IsClosed(i)) {
-        if (Normal(i) < -noise_(2 * i + 1)) return false;  // Its gap will close.
+        if (Normal(i) < -noise_(N(i))) return false;  // Its gap will close.
         continue;
       }
       presses = true;
-      if (flow_->velocity(2 * i + 1).Lead() <= kSeriesOrder || flow_->velocity(2 * i).Lead() == 1) return false;
+      if (flow_->velocity(N(i)).Lead() <= kSeriesOrder || flow_->velocity(T(i)).Lead() == 1) return false;
     }
     return presses;
   }
@@ -346,7 +355,7 @@ class Motion {
 
   bool HasEnded() {
     for (int i = 0; i < k_; ++i) {
-      if (IsClosed(i) || Normal(i) < -noise_(2 * i + 1)) return false;
+      if (IsClosed(i) || Normal(i) < -noise_(N(i))) return false;
     }
     result_.end = MultiContactEnd::kSeparated;
     return true;
@@ -359,7 +368,7 @@ class Motion {
     for (int i = 0; i < k_; ++i) {
       const ContactLaw& law = problem_.laws[At(i)];
       if (!IsClosed(i)) {
-        gap_error_[At(i)] += roots_(2 * i + 1) * result_.error * h * s;
+        gap_error_[At(i)] += roots_(N(i)) * result_.error * h * s;
         if (state_.g[At(i)] > 0.0 || Normal(i) > 0.0) state_.g[At(i)] = std::max(flow_->gap(i).At(s), 0.0);
         continue;
       }
@@ -377,22 +386,22 @@ class Motion {
       }
       state_.f[At(i)] = after;
       state_.largest_f[At(i)] = std::max({state_.largest_f[At(i)], before, after});
-      state_.p(2 * i + 1) += normal;
+      state_.p(N(i)) += normal;
       const double largest = std::max(before, after);
       const double force_error = std::sqrt(stiffness) * result_.error;
-      added += kEpsilon * (16.0 * largest / std::sqrt(stiffness) +
-                           roots_(2 * i + 1) * (2.0 * std::abs(state_.p(2 * i + 1)) + 8.0 * normal));
+      added += kEpsilon *
+               (16.0 * largest / std::sqrt(stiffness) + roots_(N(i)) * (2.0 * std::abs(state_.p(N(i))) + 8.0 * normal));
       result_.normal_impulse_error(i) += force_error * h * s + 8.0 * kEpsilon * normal;
       result_.work_error += largest * force_error / stiffness;
       if (law.mu == 0.0) continue;
       const Series tau = flow_->Friction(i);
       const double tangential = h * tau.Integral(s);
-      state_.p(2 * i) += tangential;
-      added += 64.0 * kEpsilon * roots_(2 * i) * (std::abs(tangential) + std::abs(state_.p(2 * i)));
+      state_.p(T(i)) += tangential;
+      added += 64.0 * kEpsilon * roots_(T(i)) * (std::abs(tangential) + std::abs(state_.p(T(i))));
       if (modes_[At(i)].slip == 0) continue;
-      works.friction += h * IntegralOfProduct(tau, flow_->velocity(2 * i), s);
+      works.friction += h * IntegralOfProduct(tau, flow_->velocity(T(i)), s);
       result_.work_error +=
-          h * s * law.mu * (largest * roots_(2 * i) * result_.error + std::abs(v_(2 * i)) * force_error);
+          h * s * law.mu * (largest * roots_(T(i)) * result_.error + std::abs(v_(T(i))) * force_error);
     }
     AddError(added);
     if (flow_->split_is_free()) result_.split_is_unique = false;
@@ -421,9 +430,9 @@ class Motion {
   void AddEventError(const Condition& event, double s) {
     const int i = event.contact;
     const double error = result_.error;
-    const double normal_error = roots_(2 * i + 1) * error;
+    const double normal_error = roots_(N(i)) * error;
     const double stiffness = problem_.laws[At(i)].stiffness;
-    const double v = flow_->velocity(2 * i + 1).At(s);
+    const double v = flow_->velocity(N(i)).At(s);
     double added = 0.0;
     bool grazes = false;
     switch (event.keeps) {
@@ -452,7 +461,7 @@ class Motion {
     }
     if (grazes) result_.error_is_proved = false;
     result_.error += grazes ? std::min(added, error) : added;
-    for (const int row : {2 * i, 2 * i + 1}) {
+    for (const int row : {T(i), N(i)}) {
       if (roots_(row) > 0.0) AddError(noise_(row) / roots_(row));
     }
   }
@@ -485,11 +494,11 @@ class Motion {
     if (!beta_.has_value()) beta_ = BetaOf(problem_);
     if (!(*beta_ > 0.0)) return false;
     const double impulse = ImpulseToCome(*beta_, SpeedOfApproach(), StoredEnergy());
-    for (int row = 0; row < 2 * k_; ++row) {
+    for (int row = 0; row < rows_; ++row) {
       double mobility = 0.0;
       for (int i = 0; i < k_; ++i) {
-        mobility = std::max(mobility, std::abs(problem_.w(row, 2 * i + 1)) +
-                                          problem_.laws[At(i)].mu * std::abs(problem_.w(row, 2 * i)));
+        mobility = std::max(
+            mobility, std::abs(problem_.w(row, N(i))) + problem_.laws[At(i)].mu * std::abs(problem_.w(row, T(i))));
       }
       tail_(row) = impulse * mobility;
     }
@@ -558,7 +567,7 @@ class Motion {
   const Problem& problem_;
   const std::optional<Mirror> mirror_;
   absl::FunctionRef<bool()> stopped_;
-  const int k_;
+  const int k_, rows_;  // Contacts, and the numbers of all.
   Attained result_;
   SpringState state_;
   Modes modes_{};

@@ -10,7 +10,8 @@
 
 namespace ricochet {
 
-// A spring along the normal alone changes no velocity after the impact. `purpose` ends the rule: "for an audit".
+// A spring along the normal alone changes no velocity after the impact, and one along the tangent none of the normal
+// velocities where Wtn = 0. All other rules of the scene must hold. `purpose` begins the reason: "for an audit".
 void RequireRigid(const Scene& scene, const char* purpose, std::vector<Violation>& violations);
 
 }  // namespace ricochet

@@ -40,7 +40,7 @@ struct Memory {
   const void* begin;
   const void* end;
   bool Overlaps(const Memory& other) const {
-    const std::less<const void*> before;
+    const std::less<> before;
     return before(begin, other.end) && before(other.begin, end);
   }
 };

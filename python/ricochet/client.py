@@ -371,13 +371,13 @@ class Client:
                 if "sigma" in measured[path]:
                     values.refuse(what, f"= {path!r}: is {path}.sigma of the table a second time")
                 measured[path]["sigma"] = np.atleast_1d(values.column(given, f"{path}.sigma"))
-        starts: Iterable[Any] = itertools.repeat(None)
+        places: Iterable[Any] = itertools.repeat(None)
         if isinstance(unknown, Mapping):
             unknown = names.by_full_name(unknown, fields, "unknown")
-            starts = unknown.values()
+            places = unknown.values()
         paths = names.full_names(unknown if isinstance(unknown, Mapping) else values.names(unknown, "unknown"), fields,
                                  "unknown")
-        unknowns = [{"path": path, "start": start} for path, start in zip(paths, starts)]
+        unknowns = [{"path": path, "start": start} for path, start in zip(paths, places)]
         for path, ends in names.by_name_of(bounds or {}, paths, fields, "bounds", "an unknown").items():
             pair = list(ends) if values.is_list(ends) else []
             if len(pair) != 2:
