@@ -83,6 +83,7 @@ void ExactDerivatives::AddImpact(const Number& number, const ContactTangents& ta
                                     .mu = d.kinetic_friction,
                                     .mu_static = d.static_friction,
                                     .coefficient = d.restitution}});
+  side.exists = StaysInDomain(side);
 }
 
 void ExactDerivatives::Compute(const Scene& scene) {
@@ -131,7 +132,7 @@ void ExactDerivatives::SetSide(Number& number, const ContactTangents& tangents_h
       pendulum.a_m += change.a_m;
       pendulum.b_m += change.b_m;
       side.exists = Validate(number.scene).empty();
-      side.own_contact.emplace(number.scene);
+      if (side.exists) side.own_contact.emplace(number.scene);
     }
     if (side.exists) AddImpact(number, tangents_here, side);
     pendulum = here;
@@ -147,7 +148,6 @@ void ExactDerivatives::SetSide(Number& number, const ContactTangents& tangents_h
     if (value == 0.0 || !number.is_stated) side.own_contact.emplace(number.scene);
     number.along.Set(side.step);
     AddImpact(number, tangents_here, side);
-    side.exists = StaysInDomain(side);
   }
   number.field.Set(value);
 }

@@ -359,10 +359,9 @@ AuditReport AuditRankOne(const Contact<2>& contact, const RangeDirection& range,
   const double component_error = std::abs(range.t) * error[0] + range.n * error[1];
   // Where v+ is in the range it is its own nearest point, which needs no rounded projection. A contact that separates
   // keeps its velocity, which may lie beside the range.
-  const auto [u0, v_before] = contact.before;
   const bool in_range =
-      v_before >= 0.0 ? std::abs(u1 - u0) <= error[0] && std::abs(v1 - v_before) <= error[1]
-                      : std::abs(range.n * u1 - range.t * v1) <= range.n * error[0] + std::abs(range.t) * error[1];
+      v0 >= 0.0 ? std::abs(u1 - contact.before[0]) <= error[0] && std::abs(v1 - v0) <= error[1]
+                : std::abs(range.n * u1 - range.t * v1) <= range.n * error[0] + std::abs(range.t) * error[1];
   const double nearest = in_range && contact.uncertainty == 0.0 ? v1 : component * range.n;
   const PathPoint point = path_at(std::max(nearest, v0));
   const PathPoint moved_back = path_at(std::max(nearest - component_error * range.n, v0));

@@ -94,7 +94,7 @@ class Ray {
 
   RayPoint Adopt(double distance, const Minimum& least) {
     const double rise = least.objective - best_.objective;
-    if (rise < rise_) {
+    if (IsInside(least)) {
       last_inside_ = least.at;
       // What was found outside before this place was no least objective.
       std::erase_if(end_.computed,
@@ -108,8 +108,9 @@ class Ray {
   // ended where they change nothing.
   RayPoint Next(double distance) {
     Minimum least = Minimize(StartAt(distance, last_inside_, 1.0), is_free_, kCoarseSearch, model_);
+    if (IsInside(least)) return Adopt(distance, least);
     for (const std::vector<double>& start : OtherStarts(distance)) {
-      if (least.objective - best_.objective < rise_) break;
+      if (IsInside(least)) break;
       Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
       if (found.objective < least.objective) least = std::move(found);
     }
@@ -123,12 +124,14 @@ class Ray {
     for (const std::vector<double>& start :
          BestPlaces(StartAt(outside.distance, best_.at, 1.0), is_free_, kLookedAt, kTriedPlaces, model_)) {
       const Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
-      if (!(found.objective - best_.objective < rise_)) continue;
+      if (!IsInside(found)) continue;
       inside = Adopt(outside.distance, found);
       return true;
     }
     return false;
   }
+
+  bool IsInside(const Minimum& found) const { return found.objective - best_.objective < rise_; }
 
   bool HasFree() const {
     return std::any_of(is_free_.begin(), is_free_.end(), [](bool is_free) { return is_free; });

@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "absl/status/status.h"
@@ -242,7 +241,7 @@ class Answerer {
     }
     // Those that ended come first.
     std::sort(answer_.orders.begin(), answer_.orders.end(), [](const AttainedOutcome& x, const AttainedOutcome& y) {
-      return std::tuple(!IsAttained(x), x.orders) < std::tuple(!IsAttained(y), y.orders);
+      return IsAttained(x) != IsAttained(y) ? IsAttained(x) : x.orders < y.orders;
     });
   }
 
@@ -281,7 +280,8 @@ class Answerer {
     for (size_t i = 0; i < ranges.size(); ++i) {
       const Output& output = outputs_[i];
       const double before = output.gamma.dot(sorted_.problem.v);
-      const double slack = output.slack * metric_.root_energy + output.gamma.cwiseAbs().dot(beside) +
+      const double aside = output.gamma.cwiseAbs().dot(beside);
+      const double slack = output.slack * metric_.root_energy + aside +
                            8.0 * kEpsilon * output.gamma.cwiseAbs().dot(sorted_.problem.v.cwiseAbs());
       const auto end = [&](double bound, double sign) {
         const double value = output.before + v_scale_ * (bound - before + sign * slack);
@@ -289,7 +289,6 @@ class Answerer {
       };
       // Scaling is exact but for subnormal results, which are moved outwards by the step that they may have lost.
       const auto scaled = [&](double bound, double outwards) {
-        const double aside = output.gamma.cwiseAbs().dot(beside);
         const double value = v_scale_ * (aside == 0.0 ? bound : bound + std::copysign(aside, outwards));
         const bool is_exact = bound == 0.0 || std::abs(value) >= std::numeric_limits<double>::min();
         return is_exact ? value : std::nextafter(value, outwards);

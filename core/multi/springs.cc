@@ -60,11 +60,7 @@ class Motion {
  private:
   // --- The state ---
 
-  // The places of the directions of a contact.
-  static int T(int i) { return 2 * i; }
-  static int N(int i) { return 2 * i + 1; }
-
-  double Normal(int i) const { return v_(N(i)); }
+  double Normal(int i) const { return v_(problem_.N(i)); }
   bool IsClosed(int i) const { return modes_[At(i)].normal != NormalMode::kOpen; }
   bool HasFriction(int i) const { return problem_.laws[At(i)].mu > 0.0; }
 
@@ -96,7 +92,7 @@ class Motion {
     const double force = state_.f[At(i)];
     std::vector<NormalMode> normals;
     const double v = Normal(i);
-    const double noise = noise_(N(i));
+    const double noise = noise_(problem_.N(i));
     if (force > 0.0) {
       if (v <= noise) normals.push_back(NormalMode::kLoading);
       if (v >= -noise && problem_.laws[At(i)].e > 0.0) normals.push_back(NormalMode::kUnloading);
@@ -105,13 +101,14 @@ class Motion {
       if (state_.g[At(i)] > 0.0 || v >= -noise) normals.push_back(NormalMode::kOpen);
       if (state_.g[At(i)] == 0.0 && v <= noise) normals.push_back(NormalMode::kLoading);
     }
-    std::vector<int8_t> slips = {0, 1, -1};
-    const double u = v_(T(i));
-    if (!HasFriction(i)) slips = {0};
-    if (HasFriction(i) && std::abs(u) > noise_(T(i))) slips = {static_cast<int8_t>(u > 0.0 ? 1 : -1)};
+    const double u = v_(problem_.T(i));
+    const bool slides = HasFriction(i) && std::abs(u) > noise_(problem_.T(i));
     std::vector<ContactMode> options;
     for (const NormalMode normal : normals) {
-      for (const int8_t slip : slips) options.push_back({normal, slip});
+      for (const int8_t slip : {int8_t{0}, int8_t{1}, int8_t{-1}}) {
+        const bool may = slides ? slip == (u > 0.0 ? 1 : -1) : HasFriction(i) || slip == 0;
+        if (may) options.push_back({normal, slip});
+      }
     }
     return options;
   }
@@ -125,8 +122,8 @@ class Motion {
   void FindModes() {
     for (int i = 0; i < k_; ++i) {
       if (!HasFriction(i)) continue;
-      const double u = v_(T(i));
-      if (std::abs(u) > noise_(T(i))) modes_[At(i)].slip = static_cast<int8_t>(u > 0.0 ? 1 : -1);
+      const double u = v_(problem_.T(i));
+      if (std::abs(u) > noise_(problem_.T(i))) modes_[At(i)].slip = static_cast<int8_t>(u > 0.0 ? 1 : -1);
     }
     const int most_changes = 8 * k_ + 8;
     for (int change = 0; change < most_changes; ++change) {
@@ -224,7 +221,7 @@ class Motion {
       if (modes_[At(l)].slip == 0) {
         shorten(limit - tau, limit_slope - tau_slope);
         shorten(limit + tau, limit_slope + tau_slope);
-      } else if (std::abs(v_(T(l))) <= noise_(T(l))) {
+      } else if (std::abs(v_(problem_.T(l))) <= noise_(problem_.T(l))) {
         shorten(modes_[At(l)].slip * acceleration, modes_[At(l)].slip * u_slope);
       }
     }
@@ -327,11 +324,12 @@ class Motion {
     bool presses = false;
     for (int i = 0; i < k_; ++i) {
       if (!IsClosed(i)) {
-        if (Normal(i) < -noise_(N(i))) return false;  // Its gap will close.
+        if (Normal(i) < -noise_(problem_.N(i))) return false;  // Its gap will close.
         continue;
       }
       presses = true;
-      if (flow_->velocity(N(i)).Lead() <= kSeriesOrder || flow_->velocity(T(i)).Lead() == 1) return false;
+      if (flow_->velocity(problem_.N(i)).Lead() <= kSeriesOrder || flow_->velocity(problem_.T(i)).Lead() == 1)
+        return false;
     }
     return presses;
   }
@@ -355,7 +353,7 @@ class Motion {
 
   bool HasEnded() {
     for (int i = 0; i < k_; ++i) {
-      if (IsClosed(i) || Normal(i) < -noise_(N(i))) return false;
+      if (IsClosed(i) || Normal(i) < -noise_(problem_.N(i))) return false;
     }
     result_.end = MultiContactEnd::kSeparated;
     return true;
@@ -368,7 +366,7 @@ class Motion {
     for (int i = 0; i < k_; ++i) {
       const ContactLaw& law = problem_.laws[At(i)];
       if (!IsClosed(i)) {
-        gap_error_[At(i)] += roots_(N(i)) * result_.error * h * s;
+        gap_error_[At(i)] += roots_(problem_.N(i)) * result_.error * h * s;
         if (state_.g[At(i)] > 0.0 || Normal(i) > 0.0) state_.g[At(i)] = std::max(flow_->gap(i).At(s), 0.0);
         continue;
       }
@@ -386,22 +384,23 @@ class Motion {
       }
       state_.f[At(i)] = after;
       state_.largest_f[At(i)] = std::max({state_.largest_f[At(i)], before, after});
-      state_.p(N(i)) += normal;
+      state_.p(problem_.N(i)) += normal;
       const double largest = std::max(before, after);
       const double force_error = std::sqrt(stiffness) * result_.error;
-      added += kEpsilon *
-               (16.0 * largest / std::sqrt(stiffness) + roots_(N(i)) * (2.0 * std::abs(state_.p(N(i))) + 8.0 * normal));
+      added += kEpsilon * (16.0 * largest / std::sqrt(stiffness) +
+                           roots_(problem_.N(i)) * (2.0 * std::abs(state_.p(problem_.N(i))) + 8.0 * normal));
       result_.normal_impulse_error(i) += force_error * h * s + 8.0 * kEpsilon * normal;
       result_.work_error += largest * force_error / stiffness;
       if (law.mu == 0.0) continue;
       const Series tau = flow_->Friction(i);
       const double tangential = h * tau.Integral(s);
-      state_.p(T(i)) += tangential;
-      added += 64.0 * kEpsilon * roots_(T(i)) * (std::abs(tangential) + std::abs(state_.p(T(i))));
+      state_.p(problem_.T(i)) += tangential;
+      added += 64.0 * kEpsilon * roots_(problem_.T(i)) * (std::abs(tangential) + std::abs(state_.p(problem_.T(i))));
       if (modes_[At(i)].slip == 0) continue;
-      works.friction += h * IntegralOfProduct(tau, flow_->velocity(T(i)), s);
+      works.friction += h * IntegralOfProduct(tau, flow_->velocity(problem_.T(i)), s);
       result_.work_error +=
-          h * s * law.mu * (largest * roots_(T(i)) * result_.error + std::abs(v_(T(i))) * force_error);
+          h * s * law.mu *
+          (largest * roots_(problem_.T(i)) * result_.error + std::abs(v_(problem_.T(i))) * force_error);
     }
     AddError(added);
     if (flow_->split_is_free()) result_.split_is_unique = false;
@@ -430,9 +429,9 @@ class Motion {
   void AddEventError(const Condition& event, double s) {
     const int i = event.contact;
     const double error = result_.error;
-    const double normal_error = roots_(N(i)) * error;
+    const double normal_error = roots_(problem_.N(i)) * error;
     const double stiffness = problem_.laws[At(i)].stiffness;
-    const double v = flow_->velocity(N(i)).At(s);
+    const double v = flow_->velocity(problem_.N(i)).At(s);
     double added = 0.0;
     bool grazes = false;
     switch (event.keeps) {
@@ -461,7 +460,7 @@ class Motion {
     }
     if (grazes) result_.error_is_proved = false;
     result_.error += grazes ? std::min(added, error) : added;
-    for (const int row : {T(i), N(i)}) {
+    for (const int row : {problem_.T(i), problem_.N(i)}) {
       if (roots_(row) > 0.0) AddError(noise_(row) / roots_(row));
     }
   }
@@ -497,8 +496,8 @@ class Motion {
     for (int row = 0; row < rows_; ++row) {
       double mobility = 0.0;
       for (int i = 0; i < k_; ++i) {
-        mobility = std::max(
-            mobility, std::abs(problem_.w(row, N(i))) + problem_.laws[At(i)].mu * std::abs(problem_.w(row, T(i))));
+        mobility = std::max(mobility, std::abs(problem_.w(row, problem_.N(i))) +
+                                          problem_.laws[At(i)].mu * std::abs(problem_.w(row, problem_.T(i))));
       }
       tail_(row) = impulse * mobility;
     }

@@ -1,13 +1,11 @@
 #include "core/scene/rigid.h"
 
-#include <string>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/contact/reduction.h"
 
 namespace ricochet {
-
 namespace {
 
 // Compliance is for planar scenes alone.

@@ -176,12 +176,13 @@ void ReducePart(const States& states, int64_t first, int64_t end) {
 
 // Reduces the states on all cores and lets Python handle its signals meanwhile.
 void ReduceAll(const States& states, int64_t count) {
-  const int64_t step = PieceOf(states.coordinates) * AvailableCores();
+  const int64_t cores = AvailableCores();
+  const int64_t step = PieceOf(states.coordinates) * cores;
   for (int64_t first = 0; first < count; first += step) {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     const WithoutLock without_lock;
     const int64_t end = std::min(count, first + step);
-    const int64_t piece = (end - first + AvailableCores() - 1) / AvailableCores();
+    const int64_t piece = (end - first + cores - 1) / cores;
     std::vector<std::future<void>> others;
     for (int64_t at = first + piece; at < end; at += piece) {
       others.push_back(std::async(std::launch::async, ReducePart, states, at, std::min(end, at + piece)));

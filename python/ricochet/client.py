@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
+import functools
 import os
 import sys
 import threading
@@ -104,7 +104,7 @@ class Client:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """A copy, or what another process gets, has the same options and a connection of its own."""
-        return _restored, (self._given,)
+        return functools.partial(Client, **self._given), ()
 
     def __enter__(self) -> "Client":
         return self
@@ -371,13 +371,12 @@ class Client:
                 if "sigma" in measured[path]:
                     values.refuse(what, f"= {path!r}: is {path}.sigma of the table a second time")
                 measured[path]["sigma"] = np.atleast_1d(values.column(given, f"{path}.sigma"))
-        places: Iterable[Any] = itertools.repeat(None)
         if isinstance(unknown, Mapping):
-            unknown = names.by_full_name(unknown, fields, "unknown")
-            places = unknown.values()
-        paths = names.full_names(unknown if isinstance(unknown, Mapping) else values.names(unknown, "unknown"), fields,
-                                 "unknown")
-        unknowns = [{"path": path, "start": start} for path, start in zip(paths, places)]
+            given_starts = list(names.by_full_name(unknown, fields, "unknown").items())
+        else:
+            given_starts = [(name, None) for name in values.names(unknown, "unknown")]
+        paths = names.full_names([name for name, _ in given_starts], fields, "unknown")
+        unknowns = [{"path": path, "start": start} for path, (_, start) in zip(paths, given_starts)]
         for path, ends in names.by_name_of(bounds or {}, paths, fields, "bounds", "an unknown").items():
             pair = list(ends) if values.is_list(ends) else []
             if len(pair) != 2:
@@ -662,10 +661,6 @@ class Client:
         if limit < 1:  # Rows in parts of no row would be lost in silence.
             raise RicochetError(f"the server states {name} = {limit}: must be >= 1", code="DATA_LOSS")
         return int(limit)
-
-
-def _restored(given: dict[str, Any]) -> Client:
-    return Client(**given)
 
 
 def _module_client() -> Client:

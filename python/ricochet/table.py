@@ -25,7 +25,7 @@ def _is_equal(one: Any, other: Any) -> bool:
         return False
     if isinstance(one, np.ndarray):
         return one.dtype == other.dtype and np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
-    if isinstance(one, dict) and not isinstance(one, Record):
+    if type(one) is dict:
         return one.keys() == other.keys() and all(_is_equal(value, other[name]) for name, value in one.items())
     if isinstance(one, (Codes, Table)):
         return _is_equal(vars(one), vars(other))

@@ -64,11 +64,7 @@ absl::Status ReadRow(const CsvReader& reader, const std::vector<std::string>& ce
   const auto wrong = [&reader](const std::string& column, const std::string& what) {
     return absl::InvalidArgumentError(absl::StrCat("--data, line ", reader.line(), ": ", column, " ", what));
   };
-  if (reader.ends_in_quotes()) return wrong("the row", kOpenQuotes);
-  if (cells.size() != columns.size()) {
-    return wrong("the row", absl::StrCat("has ", cells.size(), " cells: must have ", columns.size(),
-                                         "; what was not measured has an empty cell"));
-  }
+  if (const std::string rule = reader.WhyNoRow(cells); !rule.empty()) return wrong("the row", rule);
   for (size_t i = 0; i < columns.size(); ++i) {
     if (!columns[i].has_value()) continue;
     double value = std::numeric_limits<double>::quiet_NaN();

@@ -70,18 +70,18 @@ bool CsvReader::ReadLine(std::string& line) {
   return true;
 }
 
+std::string CsvReader::WhyNoRow(const std::vector<std::string>& cells) const {
+  if (ends_in_quotes_) return kOpenQuotes;
+  if (cells.size() == header_.size()) return "";
+  return absl::StrCat("has ", cells.size(), cells.size() == 1 ? " cell" : " cells", ": must have ", header_.size(),
+                      cells.size() < header_.size() ? "; what is unknown has an empty cell"
+                                                    : "; a number has a decimal point, not a comma");
+}
+
 void CsvReader::Append(const std::vector<std::string>& cells, CsvTable& table) const {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  BadCells bad{.row = table.columns.front().size(), .column = {}, .description = {}};
-  const bool fits = cells.size() == header_.size() && !ends_in_quotes_;
-  if (ends_in_quotes_) {
-    bad.description = kOpenQuotes;
-  } else if (!fits) {
-    bad.description =
-        absl::StrCat("has ", cells.size(), cells.size() == 1 ? " cell" : " cells", ": must have ", header_.size(), "; ",
-                     cells.size() < header_.size() ? "what is unknown has an empty cell"
-                                                   : "a number has a decimal point, not a comma");
-  }
+  BadCells bad{.row = table.columns.front().size(), .column = {}, .description = WhyNoRow(cells)};
+  const bool fits = bad.description.empty();
   for (size_t i = 0; i < table.columns.size(); ++i) {
     double value = kNone;
     const std::string wrong = !fits || IsSkipped(i) ? "" : ReadCell(cells[i], kinds_[i], value);

@@ -41,8 +41,8 @@ struct CsvTable {
 
 // Reads a table part by part, so that a long one takes little memory. Columns are separated by commas. A cell may stand
 // in double quotes, and may then have commas and line ends. A cell that is missing or not a number becomes a NaN, and
-// so do all cells of a row with more cells than the header. Empty lines, lines that start with # and a byte order mark
-// are skipped.
+// so do all cells of a row with more or fewer cells than the header. Empty lines, lines that start with # and a byte
+// order mark are skipped.
 class CsvReader {
  public:
   // Reads the header. `name` names the table in errors; the stream must live as long as the reader.
@@ -61,6 +61,8 @@ class CsvReader {
   CsvTable Next(size_t most);
   // Reads the cells of the next row as text. Returns false at the end.
   bool NextRow(std::vector<std::string>& cells);
+  // Returns why the last row, which has these cells, is none of the table; empty if it is one.
+  std::string WhyNoRow(const std::vector<std::string>& cells) const;
   // The line of the text in which the last row begins, from 1.
   int64_t line() const { return number_; }
   // True if the text ended within a cell of the last row, so that other rows may be lost in it.

@@ -56,21 +56,16 @@ TEST_F(CliSolveData, SaysOfEveryCellWhatAuditSays) {
   }
 }
 
-TEST_F(CliSolveData, ARowWithTooManyCellsIsRefusedAsAuditDoes) {
-  const std::string reason = "has 3 cells: must have 2; a number has a decimal point, not a comma\n";
-  EXPECT_THAT(Solve("planar_contact.tangential_m_s,planar_contact.normal_m_s\n1,-1,5\n").out,
-              HasSubstr("  row 0 (line 2): " + reason));
-  EXPECT_THAT(Audit("tangential_after_m_s,normal_after_m_s\n1,-1,5\n").out,
-              HasSubstr("  row 0 (line 2): invalid: " + reason));
-}
-
-// A file that was cut off ends with such a row.
-TEST_F(CliSolveData, ARowWithTooFewCellsIsRefusedAsAuditDoes) {
-  const std::string reason = "has 1 cell: must have 2; what is unknown has an empty cell\n";
-  EXPECT_THAT(Solve("planar_contact.tangential_m_s,planar_contact.normal_m_s\n1\n").out,
-              HasSubstr("  row 0 (line 2): " + reason));
-  EXPECT_THAT(Audit("tangential_after_m_s,normal_after_m_s\n1\n").out,
-              HasSubstr("  row 0 (line 2): invalid: " + reason));
+// A file that was cut off ends with a row of too few.
+TEST_F(CliSolveData, ARowWithMoreOrFewerCellsIsRefusedAsAuditDoes) {
+  for (const auto& [row, reason] :
+       {std::pair("1,-1,5\n", "has 3 cells: must have 2; a number has a decimal point, not a comma\n"),
+        {"1\n", "has 1 cell: must have 2; what is unknown has an empty cell\n"}}) {
+    EXPECT_THAT(Solve(std::string("planar_contact.tangential_m_s,planar_contact.normal_m_s\n") + row).out,
+                HasSubstr(std::string("  row 0 (line 2): ") + reason));
+    EXPECT_THAT(Audit(std::string("tangential_after_m_s,normal_after_m_s\n") + row).out,
+                HasSubstr(std::string("  row 0 (line 2): invalid: ") + reason));
+  }
 }
 
 TEST_F(CliSolveData, BothRefuseTheSameHeaders) {
