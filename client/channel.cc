@@ -4,6 +4,7 @@
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <thread>
@@ -15,9 +16,10 @@
 namespace ricochet {
 namespace {
 
-// gRPC waits up to two minutes by default, and calls fail meanwhile although the server may be back.
+// gRPC waits up to two minutes by default, and calls fail meanwhile although the server may be back. A name with
+// several addresses, as localhost has, waits for each of them in turn.
 constexpr int kFirstReconnectMs = 100;
-constexpr int kLongestReconnectMs = 2'000;
+constexpr int kLongestReconnectMs = 1'000;
 constexpr int kKeepaliveTimeMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
 
@@ -70,6 +72,12 @@ absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const C
     channels.push_back(grpc::CreateCustomChannel(target, *credentials, own));
   }
   return channels;
+}
+
+void AwaitReconnection(grpc::Channel& channel, std::chrono::system_clock::time_point deadline) {
+  constexpr std::chrono::milliseconds kLongest(250);
+  if (channel.GetState(false) != GRPC_CHANNEL_TRANSIENT_FAILURE) return;
+  channel.WaitForConnected(std::min(deadline, std::chrono::system_clock::now() + kLongest));
 }
 
 bool AllChannelsEnd(std::chrono::milliseconds longest) {

@@ -54,14 +54,21 @@ std::optional<SweepRequest> Divisible(const SweepRequest& request) {
 }  // namespace
 
 struct Client::Connection {
-  Connection(ClientOptions given, const std::vector<std::shared_ptr<grpc::Channel>>& channels)
-      : options(std::move(given)), preferred(channels.size()) {
+  Connection(ClientOptions given, std::vector<std::shared_ptr<grpc::Channel>> of_servers)
+      : options(std::move(given)), channels(std::move(of_servers)), preferred(channels.size()) {
     for (const auto& channel : channels) stubs.push_back(v1::ImpactService::NewStub(channel));
   }
 
   ClientOptions options;
-  std::vector<std::unique_ptr<Stub>> stubs;  // One for each server.
+  std::vector<std::shared_ptr<grpc::Channel>> channels;  // One for each server.
+  std::vector<std::unique_ptr<Stub>> stubs;              // One for each server.
   PreferredServer preferred;
+
+  // Returns the stub by which to begin the call of `context`.
+  Stub& StubFor(size_t server, const grpc::ClientContext& context) const {
+    AwaitReconnection(*channels[server], context.deadline());
+    return *stubs[server];
+  }
 
   // Calls `method` on one server after another until one answers.
   template <typename WireRequest, typename WireResponse>
@@ -72,7 +79,7 @@ struct Client::Connection {
       if (IsStopped(call)) return StoppedByCaller();
       CallContext context(call, std::nullopt);
       WireResponse response;
-      const grpc::Status ended = ((*stubs[attempts.server()]).*method)(&context.get(), wire, &response);
+      const grpc::Status ended = (StubFor(attempts.server(), context.get()).*method)(&context.get(), wire, &response);
       if (ended.ok()) return response;
       if (IsStopped(call)) return StoppedByCaller();
       const absl::Status status = FromGrpcStatus(ended);
@@ -135,9 +142,9 @@ struct Client::Connection {
 };
 
 absl::StatusOr<Client> Client::Connect(const ClientOptions& options) {
-  const auto channels = MakeChannels(options);
+  auto channels = MakeChannels(options);
   if (!channels.ok()) return channels.status();
-  return Client(std::make_shared<Connection>(options, *channels));
+  return Client(std::make_shared<Connection>(options, *std::move(channels)));
 }
 
 absl::StatusOr<SolveResponse> Client::DoSolve(const SolveRequest& request, const CallOptions& options) const {
@@ -172,7 +179,7 @@ absl::StatusOr<MultiContactResponse> Client::DoMultiContact(const MultiContactRe
 
 absl::StatusOr<BatchSession> Client::DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const {
   auto start = [connection = connection_](size_t server, grpc::ClientContext* context) {
-    return connection->stubs[server]->SolveBatches(context);
+    return connection->StubFor(server, *context).SolveBatches(context);
   };
   auto ask_most_rows = [connection = connection_, setup, options]() -> absl::StatusOr<size_t> {
     const absl::StatusOr<InfoResponse> info = connection->Ask(&Stub::Info, InfoRequest(), options);
@@ -212,7 +219,7 @@ absl::StatusOr<BatchResponse> Client::SolveInPieces(const BatchSetup& setup, con
 
 SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& options) const {
   auto start = [connection = connection_](size_t server, grpc::ClientContext* context, const v1::SweepRequest& part) {
-    return connection->stubs[server]->Sweep(context, part);
+    return connection->StubFor(server, *context).Sweep(context, part);
   };
   const ClientOptions& given = connection_->options;
   const size_t servers = connection_->stubs.size();
@@ -233,7 +240,7 @@ SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& opti
 CostStream Client::DoCost(const CostRequest& request, const CallOptions& options) const {
   auto reader = std::make_shared<CostReader>(
       [&](grpc::ClientContext* context) {
-        return connection_->stubs[connection_->preferred.get()]->Cost(context, ToProto(request));
+        return connection_->StubFor(connection_->preferred.get(), *context).Cost(context, ToProto(request));
       },
       connection_->options.sweep_deadline, options);
   return Connection::StreamOf<CostStream>(connection_, std::move(reader));

@@ -194,7 +194,8 @@ absl::Status SolveData(const DataOptions& data, const CommonOptions& options, co
   if (!rows.ok()) return rows.status();
   if (absl::Status status = Write(solved, options, static_cast<size_t>(*rows)); !status.ok()) return status;
   const BatchSummary& summary = solved.response.summary;
-  const int64_t bad = InvalidRows(summary) + summary.counts.inadmissible.count;
+  const int64_t bad = InvalidRows(summary) + summary.counts.inadmissible.count +
+                      summary.counts.by_regime[static_cast<size_t>(Regime::kNoSolution)].count;
   if (!data.strict || bad == 0) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrCat(bad, " of ", summary.counts.points, " rows are not admissible"));
 }

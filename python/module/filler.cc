@@ -222,6 +222,13 @@ bool Filler::FillMatrix(py::handle value, Message& message, const Place& place, 
   return true;
 }
 
+absl::string_view ArgumentOf(absl::string_view field) {
+  for (const auto& [python, name] : kFields) {
+    if (field == name) return python;
+  }
+  return field;
+}
+
 void Filler::FillArgument(absl::string_view argument, py::handle value, Message& message) {
   if (IsNothing(value.ptr())) return;
   const FieldDescriptor& field = FieldOf(message, argument);

@@ -33,6 +33,9 @@ struct Place {
   std::string Text() const;
 };
 
+// Returns the argument of Python that sets a field of a request; the field if it has its name.
+absl::string_view ArgumentOf(absl::string_view field);
+
 class Filler {
  public:
   // Fills `message` from a dictionary. `place` is null for a scene, whose fields have no other path.

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Mapping, Seq
 
 import numpy as np
 
-from ricochet import _core, mechanisms, names, values
+from ricochet import _core, errors, mechanisms, names, values
 from ricochet import axes as sweep_axes
 from ricochet._core import Scene
 from ricochet.connection import resolve
@@ -382,12 +382,14 @@ class Client:
             if len(pair) != 2:
                 values.refuse(path, f"= {values.shown(ends)}: must be two numbers or None, the least first")
             unknowns[paths.index(path)].update(low=pair[0], high=pair[1])
-        return self._solver.fit(scene, {
+        arguments = {
             "unknowns": unknowns, "inputs": inputs, "measured": list(measured.values()),
             "loss": loss, "loss_scale": loss_scale, "starts": starts,
             "max_iterations": max_iterations,
             "region": names.full_names(values.names(region, "region"), paths, "region"),
-        })
+        }
+        with errors.naming(unknowns=paths, inputs=[str(column["path"]) for column in inputs], measured=list(measured)):
+            return self._solver.fit(scene, arguments)
 
     def solve_batch(
         self, scene: SceneLike, inputs: Mapping[str, ArrayLike], columns: Names, *,
@@ -514,7 +516,8 @@ class Client:
             "columns": wanted, "combination": "zip" if zip_axes else "product", "with_regime": True,
             "tolerance": tolerance, "require": require, "exclude": exclude,
         }
-        numbers, regimes, statuses, counts, coordinates, attrs = self._solver.sweep(scene, arguments, progress)
+        with errors.naming(axes=list(given)):
+            numbers, regimes, statuses, counts, coordinates, attrs = self._solver.sweep(scene, arguments, progress)
         codes = {"regime": Codes(regimes, _REGIMES), "status": Codes(statuses, _STATUSES)}
         table = Table(
             dict(zip(wanted, numbers)),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import re
 from dataclasses import dataclass
-from typing import Iterable
+from typing import Iterable, Iterator, Sequence
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,21 @@ class Unavailable(RicochetError, ConnectionError):
 
 class TimedOut(RicochetError, TimeoutError):
     """The call took longer than its deadline, or than the server allows."""
+
+
+@contextlib.contextmanager
+def naming(**lists: Sequence[str]) -> Iterator[None]:
+    """Names an entry of a list of the request by its path: ``unknowns[0].low`` is ``pendulum.a_m.low``."""
+    def path(found: re.Match[str]) -> str:
+        return lists[found[1]][int(found[2])] if found[1] in lists else found[0]
+
+    try:
+        yield
+    except InvalidRequest as error:
+        raise InvalidRequest.of(
+            Violation(re.sub(r"^(\w+)\[(\d+)\](?=\.(?!path$))", path, violation.field), violation.description)
+            for violation in error.violations
+        ) from None
 
 
 _CLASSES: dict[str, type[RicochetError]] = {

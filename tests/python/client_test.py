@@ -355,6 +355,26 @@ class BrokenSweeps(unittest.TestCase):
             self.sweep("one", "two")
 
 
+class Restarts(unittest.TestCase):
+    def test_a_server_that_is_back_soon_answers(self):
+        # Both ::1 and 127.0.0.1 are localhost, so that one of the addresses always refuses.
+        for host in ("127.0.0.1", "localhost"):
+            with self.subTest(host):
+                server = Ricochetd()
+                client = ricochet.Client(f"{host}:{server.address.rpartition(':')[2]}")
+                server.stop()
+                self.assertFalse(any(self.answers(client) for _ in range(8)))
+                server = Ricochetd(address=server.address)
+                self.addCleanup(server.stop)
+                self.assertTrue(any(self.answers(client) for _ in range(10)))
+
+    def answers(self, client):
+        try:
+            return client.solve(PENDULUM).admissible
+        except ricochet.Unavailable:
+            return False
+
+
 class Units(unittest.TestCase):
     def test_units_are_those_of_the_comments_in_the_protos(self):
         # A comment states the unit after the last comma before its first full stop: "a, horizontal distance, m. > 0."

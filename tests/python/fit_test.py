@@ -53,7 +53,7 @@ class Fit(unittest.TestCase):
     def test_errors_name_what_is_wrong(self):
         for change, text in (
             ({"unknown": ["mu", "friction.kinetic"]}, "unknowns[1].path"),
-            ({"sigma": {AFTER[0]: 0.01}}, "measured[1].sigma"),
+            ({"sigma": {AFTER[0]: 0.01}}, f"{AFTER[1]}.sigma has 0 numbers"),
             ({"sigma": {**SIGMA, "contact.duration_s": 1}}, "must be a measured column"),
             ({"bounds": {"restitution.poisson": (0, 1)}}, "must be an unknown"),
             ({"bounds": {"poisson": (0, 1)}}, "bounds = 'poisson': must be an unknown"),

@@ -217,10 +217,24 @@ class Frames(Case):
                 self.assertIsInstance(str(table), str)
         self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: [], "a": [0.3, 0.4]}, NEWTON), MU,
                      "must be one number, or 2 as the longest array")
-        self.refused(lambda: ricochet.sweep(PENDULUM, {MU: []}, NEWTON), "axes[0].list.values", "is empty")
+        self.refused(lambda: ricochet.sweep(PENDULUM, {MU: []}, NEWTON), f"{MU}.list.values", "is empty")
         wrong = {"pendulum": {**PENDULUM["pendulum"], "a_m": -1}}
         for columns in ({}, {"normal_after_m_s": []}, {"rates_after": [[]]}):
             self.refused(lambda: ricochet.audit_batch(wrong, columns), "pendulum.a_m", "= -1: must be > 0")
+
+    def test_errors_name_what_the_caller_gave(self):
+        velocity = "contact_velocity_after.normal_m_s"
+        calls = {
+            "tolerance": lambda: ricochet.solve(PENDULUM, tolerance=5),
+            "history": lambda: ricochet.solve(PENDULUM, history=-5),
+            "force_history": lambda: ricochet.solve(PENDULUM, force_history=10),
+            "require[0]": lambda: ricochet.solve(PENDULUM, require=["friction"], exclude=["friction"]),
+            f"{velocity}.sigma": lambda: ricochet.fit(PENDULUM, {velocity: [0.3, 0.2]}, [MU]),
+            f"{MU}.start": lambda: ricochet.fit(PENDULUM, {velocity: [0.3, 0.2]}, {MU: -1}, sigma={velocity: 1}),
+        }
+        for field, call in calls.items():
+            with self.subTest(field):
+                self.refused(call, field)
 
     def test_a_table_keeps_its_inputs(self):
         mu = np.array([0.0, 0.1])

@@ -40,13 +40,13 @@ def eventually(condition):
 
 
 class Ricochetd:
-    """A server on a free port of 127.0.0.1."""
+    """A server on 127.0.0.1, by default on a free port."""
 
-    def __init__(self, *arguments):
+    def __init__(self, *arguments, address="127.0.0.1:0"):
         self._directory = tempfile.TemporaryDirectory()
         port = Path(self._directory.name) / "port"
         self._process = subprocess.Popen(
-            [os.environ["RICOCHETD"], "--listen", "127.0.0.1:0", "--port-file", port, "--drain-grace", "0", *arguments],
+            [os.environ["RICOCHETD"], "--listen", address, "--port-file", port, "--drain-grace", "0", *arguments],
             stderr=subprocess.DEVNULL,
         )
         if not eventually(port.exists):

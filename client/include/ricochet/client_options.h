@@ -51,16 +51,18 @@ struct ClientOptions {
   // A server may be named twice, for a `fan_out` over the servers behind one proxy.
   // A host that is not loopback is reached through the HTTP proxy of the environment, if http_proxy names one and
   // no_proxy does not exempt the host.
-  std::string target;
-  std::chrono::milliseconds deadline{10000};                // For every call with one answer, tries included. > 0.
-  std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.
+  std::string target = {};
+  std::chrono::milliseconds deadline{10000};                     // For every call with one answer, tries included. > 0.
+  std::optional<std::chrono::milliseconds> sweep_deadline = {};  // For a whole stream; absent means none. > 0.
   // Bytes of one message of an answer, in [1, kMostReceiveBytes]. A larger one fails with RESOURCE_EXHAUSTED. A server
   // with its default limits sends none above 4 MiB but the answer of a batch, which a Client asks for in pieces.
   int64_t max_receive_bytes = int64_t{4} << 20;
-  RetryPolicy retry;
-  std::optional<FanOut> fan_out;  // Present: the servers of the list compute a sweep together, not one after another.
-  SecurityOptions security;
-  std::string user_agent;  // Every call puts it before gRPC's own user agent. At most 256 printable ASCII characters.
+  RetryPolicy retry = {};
+  // Present: the servers of the list compute a sweep together, not one after another.
+  std::optional<FanOut> fan_out = {};
+  SecurityOptions security = {};
+  // Every call puts it before gRPC's own user agent. At most 256 printable ASCII characters.
+  std::string user_agent = {};
 };
 
 // Checks the rules above. Errors: INVALID_ARGUMENT that names every option that breaks one.

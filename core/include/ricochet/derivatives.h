@@ -18,9 +18,10 @@ namespace ricochet {
 
 // The derivatives that a request asks for: of each number of `of` by each of `by`. Neither list may be empty.
 struct DerivativePaths {
-  std::vector<std::string> of = {};  // Numbers of the outcome (ricochet/outcome_numbers.h): "impulse.normal_total_n_s".
-  std::vector<std::string> by =
-      {};  // Numbers of the scene, named as the axes of a sweep: "friction.kinetic_coefficient".
+  // Numbers of the outcome (ricochet/outcome_numbers.h): "impulse.normal_total_n_s".
+  std::vector<std::string> of = {};
+  // Numbers of the scene, named as the axes of a sweep: "friction.kinetic_coefficient".
+  std::vector<std::string> by = {};
   // Also sets Derivative::below and Derivative::above, which takes up to 350 impacts for each number of `by`. Outcomes
   // alone have them.
   bool find_thresholds = false;

@@ -40,10 +40,10 @@ struct ContactMatrix {
 // A free rigid body, in a plane with coordinates (x, y) or in space with (x, y, z). All vectors have these directions.
 struct FreeBody {
   double mass_kg = 0.0;  // > 0
-  std::vector<double> inertia_com_kg_m2 =
-      {};                               // In a plane one number > 0; in space 11, 12, 13, 22, 23, 33 as of SpatialBody.
-  std::vector<double> position_m = {};  // The place of the centre of mass.
-  std::vector<double> linear_m_s = {};  // The velocity of the centre of mass before; empty: at rest.
+  // In a plane one number > 0; in space 11, 12, 13, 22, 23, 33 as of SpatialBody.
+  std::vector<double> inertia_com_kg_m2 = {};
+  std::vector<double> position_m = {};     // The place of the centre of mass.
+  std::vector<double> linear_m_s = {};     // The velocity of the centre of mass before; empty: at rest.
   std::vector<double> angular_rad_s = {};  // One number in a plane, three in space; empty: 0.
   friend bool operator==(const FreeBody&, const FreeBody&) = default;
 };

@@ -121,8 +121,8 @@ struct BodyVelocity {
 enum class Termination {
   kUnspecified = 0,
   kConverged = 1,  // The impact was followed to its end, with a stated error within the tolerance if that is above 0.
-  kBudgetUsedUp =
-      2,  // The model's budget of steps ran out first. The outcome is the state reached, its error infinite.
+  // The model's budget of steps ran out first. The outcome is the state reached, its error infinite.
+  kBudgetUsedUp = 2,
   // The model gave up: friction or a spring holds the contact for ever, rounding has destroyed the path, or an impact
   // law has no solution. The outcome is the state reached, and its error is infinite except under a law.
   kRefused = 3,

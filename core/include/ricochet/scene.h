@@ -144,7 +144,7 @@ using ImpactLaw = std::variant<std::monostate, WhittakerLaw, KaneLevinsonLaw, Br
 
 struct Scene {
   System system = {};
-  Friction friction = {};
+  Friction friction = Friction();                            // GCC 12 warns of uninitialised members after `= {}`.
   Restitution restitution = {};                              // Unset exactly if impact_law or a HuntCrossleySpring is.
   std::optional<SpeedDependence> restitution_by_speed = {};  // Absent means constant.
   std::optional<SurfaceVelocity> surface_velocity = {};      // Absent means at rest.

@@ -161,5 +161,17 @@ TEST_F(CliSolveData, StrictFailsAfterWritingEverything) {
   EXPECT_EQ(result.out, Solve("mu\n0.1\n-1\nx\n").out);
 }
 
+TEST_F(CliSolveData, StrictFailsIfALawHasNoSolution) {
+  Write("law.textproto", R"(
+    planar_contact { w_tt_per_kg: 2.5 w_tn_per_kg: -1.5 w_nn_per_kg: 1 tangential_m_s: 1 normal_m_s: -1 }
+    brach { e: 0.5 mu_hat: 1 })");
+  const CliResult one = Run({"solve", "--scene", "law.textproto", "--strict"});
+  EXPECT_EQ(one.exit_code, 42);
+  EXPECT_THAT(one.err, HasSubstr("FAILED_PRECONDITION: the impact law has no solution for this contact"));
+  const CliResult rows = Run({"solve", "--scene", "law.textproto", "--data", "-", "--strict"}, "brach.mu_hat\n0\n1\n");
+  EXPECT_EQ(rows.exit_code, 42);
+  EXPECT_THAT(rows.err, HasSubstr("1 of 2 rows are not admissible"));
+}
+
 }  // namespace
 }  // namespace ricochet::cli

@@ -140,6 +140,19 @@ TEST(LocalSolverTest, AnInadmissibleOutcomeIsAnErrorOnlyWhereAsked) {
   EXPECT_TRUE(LocalSolver().Solve(request).ok());
 }
 
+TEST(LocalSolverTest, ALawWithoutASolutionIsAnErrorOnlyWhereAsked) {
+  // Wnn + mu_hat Wtn = -0.5: the impulse would increase the approach velocity.
+  SolveRequest request = {
+      .scene = {.system = PlanarContact{2.5, -1.5, 1.0, 1.0, -1.0}, .impact_law = BrachLaw{0.5, 1.0}}};
+  const auto response = LocalSolver().Solve(request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->outcome.regime, Regime::kNoSolution);
+  request.inadmissible_is_error = true;
+  const absl::Status status = LocalSolver().Solve(request).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kInadmissibleOutcome);
+}
+
 TEST(LocalSolverTest, ABadSceneListsItsViolations) {
   Scene scene = ExactScene();
   PendulumOf(scene).a_m = 0.0;
@@ -233,7 +246,7 @@ TEST(LocalSolverTest, IntervalsOfAHistoryAreEqualStepsOfTheImpulse) {
 }
 
 TEST(LocalSolverTest, AHistoryHasEitherImpulsesOrIntervals) {
-  const auto refused = [](SolveRequest request) { return ViolationsOf(LocalSolver().Solve(request).status()); };
+  const auto refused = [](const SolveRequest& request) { return ViolationsOf(LocalSolver().Solve(request).status()); };
   EXPECT_THAT(refused({.scene = ExactScene(), .history_at_n_s = {0.0}, .history_intervals = 2}),
               ElementsAre(Violation{"history_at_n_s", "has 1 entry: must be empty, with history_intervals"}));
   EXPECT_THAT(refused({.scene = ExactScene(), .history_intervals = -1}),
