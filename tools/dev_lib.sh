@@ -18,8 +18,8 @@ readonly bench_packages=(
 readonly test_packages=(
   "${build_packages[@]}" bash-completion curl gnuplot-nox groff-base haproxy libgmock-dev libgtest-dev libmujoco-dev
   mandoc mypy nghttp2-client nginx openssl pkg-config prometheus python3-cryptography python3-grpcio python3-h2
-  python3-jsonschema python3-mpmath python3-netcdf4 python3-numpy python3-pandas python3-protobuf python3-xarray
-  python3-yaml valgrind zsh)
+  python3-jsonschema python3-mpmath python3-netcdf4 python3-numpy python3-pandas python3-protobuf python3-seccomp
+  python3-xarray python3-yaml systemd valgrind zsh)
 readonly image_packages=(
   aardvark-dns buildah catatonit conmon iptables mmdebstrap netavark podman runc)
 

@@ -45,8 +45,10 @@ size_t EditDistance(absl::string_view a, absl::string_view b) {
 
 std::string NearestName(absl::string_view name, const std::vector<std::string>& known) {
   if (name.size() > kMostCharacters) return "";
-  std::string nearest = OnlyPathThatEndsIn(name, known);
-  if (!nearest.empty()) return nearest;
+  for (const std::string& path : {absl::StrCat(name, "[0]"), OnlyPathThatEndsIn(name, known)}) {
+    if (std::find(known.begin(), known.end(), path) != known.end()) return path;
+  }
+  std::string nearest;
   size_t least = std::numeric_limits<size_t>::max();
   for (const std::string& candidate : known) {
     const size_t distance = EditDistance(name, candidate);

@@ -14,10 +14,10 @@ namespace ricochet {
 // Returns the Levenshtein distance: the fewest characters to be changed, added or removed to make one text the other.
 size_t EditDistance(absl::string_view a, absl::string_view b);
 
-// Returns the only path among `known` that ends in `name` after a dot. If there is none, it returns the entry to which
-// `name` has the least distance, the first of several, if that is at most two, or a third of the characters of `name`
-// after those with which both begin. Returns an empty text if no entry is so near, or if `name` is longer than any
-// name.
+// Returns the entry "NAME[0]", whose index is missing, else the only path among `known` that ends in `name` after a
+// dot. If there is neither, it returns the entry to which `name` has the least distance, the first of several, if that
+// is at most two, or a third of the characters of `name` after those with which both begin. Returns an empty text if no
+// entry is so near, or if `name` is longer than any name.
 std::string NearestName(absl::string_view name, const std::vector<std::string>& known);
 
 // Returns "; did you mean NEAREST?", or an empty text if no known name is near.

@@ -27,5 +27,5 @@ shards=$2
 shift 2
 
 array=$(sbatch --parsable --array="0-$((shards - 1))" --requeue "$here/shard.sbatch" "$file" "$shards" "$@")
-merge=$(sbatch --parsable --dependency="afterok:$array" "$here/merge.sbatch" "$file")
+merge=$(sbatch --parsable --dependency="afterok:$array" --kill-on-invalid-dep=yes "$here/merge.sbatch" "$file")
 echo "array $array, then merge $merge"

@@ -98,6 +98,9 @@ TEST(FieldTest, TheEndOfOnePathIsTakenForItAndTheEndOfSeveralForNone) {
   EXPECT_THAT(message("newton"), HasSubstr("; did you mean restitution.newton?"));
   EXPECT_EQ(NearestName("mass_kg", {"links[0].mass_kg", "links[1].mass_kg"}), "");
   EXPECT_EQ(NearestName("", {"a.", "b"}), "");
+  // The error of an impulse is spelled almost as the impulse whose index is missing.
+  EXPECT_EQ(NearestName("impulse.tangential_n_s", {"errors.tangential_n_s", "impulse.tangential_n_s[0]"}),
+            "impulse.tangential_n_s[0]");
 }
 
 TEST(FieldTest, UnknownPathsAreRefusedAndLeaveTheSceneAsItWas) {
