@@ -447,11 +447,12 @@ class NearestPoint {
     return Hypot(Hypot(contact_.after[0] - point.u[0], contact_.after[1] - point.u[1]), contact_.after[2] - point.v);
   }
 
-  // Returns tau of the nearest point; nothing once it was stopped.
-  std::optional<double> Find(double end) const {
+  // Returns tau of the nearest point; nothing once it was stopped. The path may come near v+ and leave it again between
+  // two steps, so that they include `likely`.
+  std::optional<double> Find(double end, double likely) const {
     constexpr int kSteps = 64;
     constexpr double kRatio = 0.75;
-    std::vector<double> steps = {0.0};
+    std::vector<double> steps = {0.0, std::min(likely, end)};
     double small = end / kSteps;
     for (int i = 1; i <= kSteps; ++i) {
       steps.push_back(end * i / kSteps);
@@ -469,8 +470,10 @@ class NearestPoint {
       if (distances[i] > distances[before] || distances[i] > distances[after]) continue;
       const std::optional<double> tau = Refined(steps[before], steps[after]);
       if (!tau.has_value()) return std::nullopt;
-      const double distance = DistanceAt(*tau);
-      if (distance < least) best = *tau, least = distance;
+      for (const double place : {steps[i], *tau}) {
+        const double distance = DistanceAt(place);
+        if (distance < least) best = place, least = distance;
+      }
     }
     return best;
   }
@@ -523,7 +526,8 @@ absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& proble
   if (start.regime != Regime::kSeparating) {
     // The path comes no nearer once its normal velocity is above v+_n by the distance from its start.
     const double farthest = std::max(contact.after[2], 0.0) + search.DistanceTo(start);
-    const std::optional<double> tau = search.Find(PathWhereNormalIs(problem, farthest).tau);
+    const double likely = PathWhereNormalIs(problem, std::max(contact.after[2], 0.0)).tau;
+    const std::optional<double> tau = search.Find(PathWhereNormalIs(problem, farthest).tau, likely);
     if (!tau.has_value()) return absl::CancelledError("the audit was stopped by its caller");
     point = PathAt(problem, *tau);
     moved_back = MovedBack(problem, point, std::sqrt(3.0) * error);

@@ -372,11 +372,15 @@ double ShareOutsideRange(const SpatialReduction& reduction) {
   const Eigen::Matrix3d scaled = scales.asDiagonal() * matrix * scales.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scaled);
   const Eigen::Vector3d scaled_velocity = scales.asDiagonal() * velocity;
+  // Rounding of W turns the directions outside its range by up to this share over the least eigenvalue inside.
+  double least = 1.0;
+  for (int i = 2; i >= 0 && solver.eigenvalues()(i) > 16.0 * kEpsilon; --i) least = solver.eigenvalues()(i);
+  const double turned = std::min(16.0 * kEpsilon / std::min(least, 1.0), 0x1p-20);
   for (int i = 0; i < 3; ++i) {
     if (solver.eigenvalues()(i) > 16.0 * kEpsilon) continue;
     const Eigen::Vector3d outside = solver.eigenvectors().col(i);
     const double norm = scaled_velocity.stableNorm();
-    if (norm > 0.0) share = std::max(share, std::abs(outside.dot(scaled_velocity)) / norm);
+    if (norm > 0.0) share = std::max(share, std::abs(outside.dot(scaled_velocity)) / norm - turned);
   }
   return share;
 }

@@ -20,9 +20,10 @@ constexpr double kLeastPart = 1e-3;
 // The share of each row in the square of a column of J.
 std::vector<double> SharesOf(const Problem& problem, const Eigen::VectorXd& column) {
   std::vector<double> shares(problem.rows, 0.0);
+  const double square = column.squaredNorm();
   for (size_t i = 0; i < problem.numbers.size(); ++i) {
     const double slope = column[static_cast<Eigen::Index>(i)];
-    shares[problem.numbers[i].row] += slope * slope / column.squaredNorm();
+    shares[problem.numbers[i].row] += slope * slope / square;
   }
   return shares;
 }

@@ -23,6 +23,12 @@ std::vector<double> KeyOf(const Problem& problem, int i) {
   return key;
 }
 
+std::vector<std::vector<double>> KeysOf(const Problem& problem) {
+  std::vector<std::vector<double>> keys;
+  for (int i = 0; i < problem.k; ++i) keys.push_back(KeyOf(problem, i));
+  return keys;
+}
+
 // Slip is not negative, or without slip the coupling to the contact's own normal direction.
 double SignOf(const Problem& problem, int i) {
   const double slip = problem.v(2 * i);
@@ -122,15 +128,23 @@ Vector SortedProblem::FromScene(const Vector& scene) const {
   return x;
 }
 
+std::optional<Mirror> MirrorOf(const Problem& problem) {
+  if (problem.d != 2) return std::nullopt;
+  const std::vector<std::vector<double>> keys = KeysOf(problem);
+  MirrorSearch search(problem, keys);
+  if (!search.Assign(0, false)) return std::nullopt;
+  Mirror mirror = search.mirror();
+  std::iota(mirror.image.begin() + problem.k, mirror.image.end(), problem.k);
+  return mirror;
+}
+
 SortedProblem Sort(const Problem& problem) {
   const int d = problem.d;
-  std::vector<std::vector<double>> keys;
-  for (int i = 0; i < problem.k; ++i) keys.push_back(KeyOf(problem, i));
+  const std::vector<std::vector<double>> keys = KeysOf(problem);
   SortedProblem sorted = {.problem = {.d = d, .k = problem.k, .w = problem.w, .v = problem.v, .laws = {}}};
   std::iota(sorted.from.begin(), sorted.from.end(), 0);
   std::stable_sort(sorted.from.begin(), sorted.from.begin() + problem.k,
                    [&](int i, int j) { return keys[static_cast<size_t>(i)] < keys[static_cast<size_t>(j)]; });
-  std::vector<std::vector<double>> sorted_keys;
   Vector turn = Vector::Ones(problem.v.size());
   for (int i = 0; i < problem.k; ++i) {
     const int from = sorted.from[static_cast<size_t>(i)];
@@ -139,7 +153,6 @@ SortedProblem Sort(const Problem& problem) {
     turn(d * i) = sign;
     sorted.problem.laws.push_back(problem.laws[static_cast<size_t>(from)]);
     sorted.problem.v.segment(d * i, d) = problem.v.segment(d * from, d);
-    sorted_keys.push_back(keys[static_cast<size_t>(from)]);
     for (int j = 0; j < problem.k; ++j) {
       const int other = sorted.from[static_cast<size_t>(j)];
       sorted.problem.w.block(d * i, d * j, d, d) = problem.w.block(d * from, d * other, d, d);
@@ -148,14 +161,7 @@ SortedProblem Sort(const Problem& problem) {
   // Adding 0 makes -0 positive, so that both senses give the same bits.
   sorted.problem.v = (turn.asDiagonal() * sorted.problem.v).array() + 0.0;
   sorted.problem.w = (turn.asDiagonal() * sorted.problem.w * turn.asDiagonal()).array() + 0.0;
-  if (d == 2) {
-    MirrorSearch search(sorted.problem, sorted_keys);
-    if (search.Assign(0, false)) sorted.mirror = search.mirror();
-    if (sorted.mirror.has_value()) {
-      for (size_t i = static_cast<size_t>(problem.k); i < kMostContacts; ++i)
-        sorted.mirror->image[i] = static_cast<int>(i);
-    }
-  }
+  sorted.mirror = MirrorOf(sorted.problem);
   return sorted;
 }
 

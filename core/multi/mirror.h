@@ -42,6 +42,9 @@ struct SortedProblem {
 
 SortedProblem Sort(const Problem& problem);
 
+// Returns the mirror of a problem, in the order of its own contacts; nothing in space or if it has none.
+std::optional<Mirror> MirrorOf(const Problem& problem);
+
 }  // namespace ricochet::multi
 
 #endif  // RICOCHET_CORE_MULTI_MIRROR_H_

@@ -254,7 +254,7 @@ class Answerer {
         const bool is_driven = sorted_.from[static_cast<size_t>(i)] + 1 == request_.stiffness_range->contact;
         if (is_driven) problem.laws[static_cast<size_t>(i)].stiffness = stiffness;
       }
-      return OutcomeOf(FindSprings(problem, Sort(problem).mirror, stopped_));
+      return OutcomeOf(FindSprings(problem, MirrorOf(problem), stopped_));
     };
     StiffnessCurve curve = SampleStiffness(
         *request_.stiffness_range, at,

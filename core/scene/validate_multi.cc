@@ -222,6 +222,11 @@ void CheckMethods(const MultiContactRequest& request, int directions, Check& che
     });
   }
   if (!request.stiffness_range.has_value()) return;
+  const bool takes_springs =
+      request.methods.empty() ||
+      std::find(request.methods.begin(), request.methods.end(), MultiContactMethod::kSprings) != request.methods.end();
+  check.Require(takes_springs,
+                [] { return MakeViolation("stiffness_range", "is set", "be absent without the method springs"); });
   const StiffnessRange& range = *request.stiffness_range;
   const std::string why_not = WhyNot(MultiContactMethod::kSprings, directions, contacts);
   check.Require(why_not.empty(), [&] { return Violation{"stiffness_range", "is set: " + why_not}; });

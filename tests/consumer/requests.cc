@@ -1,5 +1,5 @@
-// Asks for everything by requests that name few of their members, as programs do. It is compiled with the usual warnings
-// as errors, and does not run.
+// Asks for everything by requests that name few of their members, as programs do. It is compiled with the usual
+// warnings as errors, and does not run.
 
 #include "ricochet/solver.h"
 

@@ -38,6 +38,38 @@ class Case(unittest.TestCase):
         self.assertEqual([violation.field for violation in raised.exception.violations], list(fields))
 
 
+class TwoCoordinatesInSpace(Case):
+    """Two coordinates move the contact in a plane of its three directions, wherever that plane lies."""
+
+    SCENES = {
+        "a dip of the distance that is narrower than a step": (
+            [[2.4489780144233757, 1.7353750551064884], [1.7353750551064884, 2.2692992461915367]],
+            [[-0.3344885803229857, -1.38856495139233], [1.607398087533681, -0.952734890580308],
+             [0.5582260433028559, 1.730054458715901]],
+            [1.291781906440944, -1.333636217821058], 1.3399650560324852, {"poisson": 0.27288813518391364}),
+        "a range that rounding turns": (
+            [[1.6729073512136552, -2.1367201345846327], [-2.1367201345846327, 2.8860292496972306]],
+            [[0.2057165176789978, 0.8870580070430005], [-0.10639959608685703, -0.9494908518002053],
+             [0.3242014124060831, 1.618915491436607]],
+            [0.3991358441971388, -1.0655647560808246], 0.6191107549012698, {"energetic": 0.7649108036224355}),
+    }
+
+    def test_the_audit_of_an_outcome_gives_its_coefficients(self):
+        for what, (mass, jacobian, rates, friction, restitution) in self.SCENES.items():
+            with self.subTest(what):
+                scene = {"mechanism": {"mass_matrix": mass, "jacobian": jacobian, "rates": rates},
+                         "friction": {"kinetic_coefficient": friction}, "restitution": restitution}
+                outcome = ricochet.solve(scene)
+                self.assertEqual(outcome.w_rank, 2)
+                after = outcome.contact_velocity_after
+                report = ricochet.audit(scene, contact_velocity={
+                    "tangential_m_s": list(after.tangential_m_s), "normal_m_s": after.normal_m_s}).report
+                self.assertTrue(report.admissible and not report.unexplained)
+                for name in ("newton", "poisson", "energetic"):
+                    self.assertAlmostEqual(
+                        getattr(report.coefficients, name), getattr(outcome.coefficients, name), delta=1e-6)
+
+
 class SingleStates(Case):
     def test_a_sliding_mass_loses_what_friction_takes(self):
         # p_n = (1 + e) m v and p_t = mu p_n, as long as the slip does not stop.

@@ -26,6 +26,20 @@ def turn(outcome):
 
 
 class MultiContact(unittest.TestCase):
+    def test_a_symmetric_fall_stays_straight_over_a_range_of_stiffness(self):
+        feet = [{"body": 1, "point_m": [x, 0], "normal": [0, 1], "friction": 0.3, "energetic": 0.5} for x in (-0.5, 0, 0.5)]
+        body = {"mass_kg": 1, "inertia_com_kg_m2": [0.2], "position_m": [0, 0.5], "linear_m_s": [0, -1]}
+        curve = ricochet.multicontact({"free_bodies": {"bodies": [body]}, "contacts": feet}, methods="springs",
+                                      stiffness_range=(2, 0.1, 10))
+        self.assertGreater(len(curve.stiffness_samples), 10)
+        for sample in curve.stiffness_samples:
+            np.testing.assert_allclose(sample.outcome.velocity, [0, 0.5, 0], atol=1e-12)
+        self.assertEqual(len(curve.stiffness_jumps), 0)
+
+    def test_a_range_of_stiffness_needs_springs(self):
+        with self.assertRaisesRegex(ricochet.InvalidRequest, "stiffness_range is set: must be absent without the method"):
+            ricochet.multicontact(block(), methods="orders", stiffness_range=(2, 0.1, 10))
+
     def test_the_block_turns_by_the_order_of_its_feet(self):
         answer = ricochet.multicontact(block())
         self.assertEqual(answer.verdict, "ORDER_MATTERS")

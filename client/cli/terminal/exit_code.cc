@@ -6,6 +6,7 @@
 
 #include "client/cli/io/output.h"
 #include "client/cli/terminal/progress.h"
+#include "core/base/utf8.h"
 #include "ricochet/error.h"
 
 namespace ricochet::cli {
@@ -46,11 +47,11 @@ void PrintError(const absl::Status& status) {
   }
   const std::vector<Violation> violations = ViolationsOf(status);
   for (const Violation& violation : violations) {
-    std::fprintf(stderr, "%s %s\n", violation.field.c_str(), violation.description.c_str());
+    std::fprintf(stderr, "%s %s\n", Printable(violation.field).c_str(), Printable(violation.description).c_str());
   }
   if (violations.empty()) {
     std::fprintf(stderr, "ricochet: %s: %s\n", absl::StatusCodeToString(status.code()).c_str(),
-                 std::string(status.message()).c_str());
+                 Printable(std::string(status.message())).c_str());
   }
 }
 

@@ -187,6 +187,13 @@ TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
   }
 }
 
+// A terminal would obey it, and a server can send it.
+TEST_F(Cli, NoErrorHasAControlCharacter) {
+  const CliResult result = Run({"solve", "--scene", "\x1b[31m.json"});
+  EXPECT_THAT(result.err, HasSubstr("[31m.json"));
+  EXPECT_THAT(result.err, Not(HasSubstr("\x1b")));
+}
+
 TEST_F(Cli, HelpThatCannotBeWrittenIsNoSuccess) {
   EXPECT_EQ(RunShell("\"$R\" solve --help > /dev/full").exit_code, 75);
   EXPECT_EQ(RunShell("\"$R\" --version > /dev/full").exit_code, 75);
