@@ -470,10 +470,9 @@ class NearestPoint {
       if (distances[i] > distances[before] || distances[i] > distances[after]) continue;
       const std::optional<double> tau = Refined(steps[before], steps[after]);
       if (!tau.has_value()) return std::nullopt;
-      for (const double place : {steps[i], *tau}) {
-        const double distance = DistanceAt(place);
-        if (distance < least) best = place, least = distance;
-      }
+      if (distances[i] < least) best = steps[i], least = distances[i];
+      const double distance = DistanceAt(*tau);
+      if (distance < least) best = *tau, least = distance;
     }
     return best;
   }
