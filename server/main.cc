@@ -72,6 +72,7 @@ std::vector<LogField> StartFields(const Options& options) {
                                   {"listen", addresses},
                                   {"security", SecurityOf(options)},
                                   {"transport_memory_mib", options.transport_memory_mib},
+                                  {"call_memory_mib", options.call_memory_mib},
                                   {"max_threads", int64_t{options.max_threads}},
                                   {"compute_threads", int64_t{options.compute_threads}},
                                   {"drain_grace_ms", int64_t{options.drain_grace.count()}},

@@ -161,6 +161,9 @@ std::vector<Setting> NetworkSettings() {
        [](const std::string& text, Options& to) {
          return ReadInteger(text, int64_t{1} << 20, to.transport_memory_mib);
        }},
+      {"call-memory", "MIB",
+       "Memory for the requests and answers of all calls together, of which one client can have three quarters [512]",
+       [](const std::string& text, Options& to) { return ReadInteger(text, int64_t{1} << 20, to.call_memory_mib); }},
       {"handshake-timeout", "SECONDS", "Close a connection that does not begin HTTP/2, with TLS, in this time [10]",
        [](const std::string& text, Options& to) { return ReadTimeLimit(text, to.transport_times.handshake); }},
       {"idle-timeout", "SECONDS", "Close a connection that has had no call for this time [300]",

@@ -44,6 +44,7 @@ struct Options {
 
   ConnectionLimits connections;        // Each limit from 1 to 1,000,000.
   int64_t transport_memory_mib = 256;  // For gRPC's buffers of all connections together; 1 to 1,048,576.
+  int64_t call_memory_mib = 512;       // For the requests and answers of all calls together; 1 to 1,048,576.
   TransportTimes transport_times;      // Each 1 ms to 1 h.
 
   // Threads that wait for calls or tell callers that they are refused. With this many spare threads an overload is

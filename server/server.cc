@@ -66,12 +66,14 @@ Server::Server(const Options& options, std::shared_ptr<Auth> auth, const Log& lo
       auth_(std::move(auth)),
       solver_(options.limits, 1),
       live_calls_(options.live_calls),
+      memory_(options.call_memory_mib << 20),
       drain_(options.drain_grace, options.drain_timeout),
       scheduler_(options.compute_threads, options.max_waiting_calls, drain_.stops().streams),
       unread_(options.unread_limit),
       observer_(log, options.log_calls),
       service_(solver_,
                {.live_calls = live_calls_,
+                .memory = memory_,
                 .scheduler = scheduler_,
                 .unread = unread_,
                 .drain = drain_.stops(),
@@ -79,12 +81,11 @@ Server::Server(const Options& options, std::shared_ptr<Auth> auth, const Log& lo
                 .observer = observer_,
                 .auth = auth_.get()},
                ServerLimitsOf(options)),
-      bounded_(
-          service_,
-          [this](grpc::ServerContext& context, BoundedBatches& batches) {
-            return service_.AnswerBatches(context, batches);
-          },
-          options.limits, unread_) {
+      bounded_(service_,
+               [this](grpc::ServerContext& context, BoundedBatches& batches) {
+                 return service_.AnswerBatches(context, batches);
+               },
+               options.limits, {.unread = unread_, .memory = memory_, .auth = auth_.get()}) {
   if (auth_ == nullptr) return;
   auth_->OnRefusal([this](const std::string& reason) { observer_.metrics().Refused(reason); });
 }
@@ -160,6 +161,8 @@ absl::Status Server::OpenMetrics() {
   Metrics& metrics = observer_.metrics();
   Acceptor& acceptor = endpoint_->acceptor();
   metrics.AddGauge("ricochet_live_calls", "Calls that hold a place.", [this] { return live_calls_.live(); });
+  metrics.AddGauge("ricochet_call_memory_bytes", "Bytes that requests and answers hold.",
+                   [this] { return static_cast<double>(memory_.held()); });
   metrics.AddGauge("ricochet_queued_calls", "Calls that wait to compute.",
                    [this] { return static_cast<double>(scheduler_.waiting()); });
   metrics.AddGauge("ricochet_computing_calls", "Calls that compute.",

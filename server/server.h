@@ -12,6 +12,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/solver.h"
+#include "server/admission/call_memory.h"
 #include "server/admission/live_calls.h"
 #include "server/admission/scheduler.h"
 #include "server/admission/unread_watch.h"
@@ -68,6 +69,7 @@ class Server {
   const std::shared_ptr<Auth> auth_;  // Null unless there are tokens.
   LocalSolver solver_;                // It has no threads of its own, so that the scheduler alone decides who computes.
   LiveCalls live_calls_;
+  CallMemory memory_;
   Drain drain_;
   Scheduler scheduler_;
   UnreadWatch unread_;

@@ -60,7 +60,8 @@ class FirstError final : public google::protobuf::io::ErrorCollector {
 // Says which enum has a value that it does not know, as both parsers take any number for one.
 std::string UnknownIn(const google::protobuf::Message& message) {
   constexpr int64_t kAnyNumber = std::numeric_limits<int64_t>::max();
-  return std::string(CheckContent(message.SerializeAsString(), *message.GetDescriptor(), kAnyNumber).message());
+  return std::string(
+      CheckContent(message.SerializeAsString(), *message.GetDescriptor(), kAnyNumber).status().message());
 }
 
 // Names a number that the parser of textproto has taken for 0. It takes one that is too large for infinity, which the

@@ -51,6 +51,9 @@ class Walk {
   // Says what is wrong.
   const absl::Status& status() const { return status_; }
 
+  // Returns the number of messages and texts that were read.
+  int64_t elements() const { return elements_; }
+
  private:
   struct Step {
     const FieldDescriptor* field;
@@ -125,10 +128,11 @@ class Walk {
 
 }  // namespace
 
-absl::Status CheckContent(absl::string_view bytes, const Descriptor& type, int64_t most) {
+absl::StatusOr<int64_t> CheckContent(absl::string_view bytes, const Descriptor& type, int64_t most) {
   Walk walk(bytes, most);
   walk.Read(type);
-  return walk.status();
+  if (!walk.status().ok()) return walk.status();
+  return walk.elements();
 }
 
 }  // namespace ricochet

@@ -11,16 +11,16 @@
 
 #include <cstdint>
 
-#include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
 
 namespace ricochet {
 
-// Reads the bytes of a message of type `type`.
+// Reads the bytes of a message of type `type`, and returns how many messages and texts it holds.
 // Errors: INVALID_ARGUMENT names the first field whose number or wire type the type does not have, or whose enum does
 // not have its value; RESOURCE_EXHAUSTED with ErrorReason::kLimitExceeded if there are more than `most` messages and
 // texts. Bytes that are no message are left to the parser.
-absl::Status CheckContent(absl::string_view bytes, const google::protobuf::Descriptor& type, int64_t most);
+absl::StatusOr<int64_t> CheckContent(absl::string_view bytes, const google::protobuf::Descriptor& type, int64_t most);
 
 }  // namespace ricochet
 

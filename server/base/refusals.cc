@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -29,6 +30,20 @@ absl::Status TooManyCalls(const std::string& what, int limit) {
 absl::Status TooManyCallsOfPeer(const std::string& what, int limit) {
   return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
                  absl::StrCat("this client is at its limit of ", limit, " ", what, "; try again later"),
+                 milliseconds(1000));
+}
+
+absl::Status NoMemory(int64_t limit) {
+  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
+                 absl::StrCat("the requests and answers of all calls hold the ", limit >> 20,
+                              " MiB that the server has for them; try again later"),
+                 milliseconds(1000));
+}
+
+absl::Status NoMemoryOfPeer(int64_t limit) {
+  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
+                 absl::StrCat("the requests and answers of this client's calls hold ", limit >> 20,
+                              " MiB, its limit; read the answers, and try again later"),
                  milliseconds(1000));
 }
 

@@ -5,6 +5,7 @@
 #define RICOCHET_SERVER_BASE_REFUSALS_H_
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 #include "absl/status/status.h"
@@ -16,6 +17,10 @@ absl::Status TooManyCalls(const std::string& what, int limit);
 
 // RESOURCE_EXHAUSTED: a peer is at its own limit of live calls or streams. `what` is "live calls" or "streams".
 absl::Status TooManyCallsOfPeer(const std::string& what, int limit);
+
+// RESOURCE_EXHAUSTED: the requests and answers of all calls, or of this peer's, hold as many bytes as they may.
+absl::Status NoMemory(int64_t limit);
+absl::Status NoMemoryOfPeer(int64_t limit);
 
 // RESOURCE_EXHAUSTED: the server has no thread that could run another handler.
 absl::Status NoThread();

@@ -1,26 +1,30 @@
 #include "server/calls/bounded_service.h"
 
-#include <grpc/byte_buffer.h>
-#include <grpc/byte_buffer_reader.h>
-#include <grpc/slice.h>
 #include <grpcpp/support/method_handler.h>
+#include <grpcpp/support/slice.h>
 
 #include <algorithm>
 #include <memory>
-#include <string>
+#include <type_traits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
 #include "proto/wire/message_content.h"
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
+#include "server/security/peer.h"
 
 namespace ricochet::server {
 namespace {
 
-using google::protobuf::Descriptor;
-
 constexpr int64_t kLeastElements = 16'384;
+
+// An empty message or text takes about this much memory once it is parsed and converted.
+constexpr int64_t kBytesPerElement = 512;
+
+// A stream holds a chunk of up to 512 KiB twice, as a message and as its bytes, while its caller does not read it.
+constexpr int64_t kChunkBytes = int64_t{1} << 20;
 
 absl::Status CheckBytes(int64_t bytes, int64_t most) {
   if (bytes <= most) return absl::OkStatus();
@@ -29,12 +33,11 @@ absl::Status CheckBytes(int64_t bytes, int64_t most) {
                                 most == kMostBytes ? "" : ", the limit max_request_bytes; send a batch in pieces"));
 }
 
-// Lets another handler parse and answer a request, unless it holds too much or what this server does not know.
-class BoundedHandler final : public grpc::internal::MethodHandler {
+// Lets another handler answer a call, and watches whether the caller reads the answer.
+class WatchedHandler final : public grpc::internal::MethodHandler {
  public:
-  BoundedHandler(std::unique_ptr<grpc::internal::MethodHandler> handler, const Descriptor& request,
-                 const MessageBounds& bounds, UnreadWatch& unread)
-      : handler_(std::move(handler)), request_(request), bounds_(bounds), unread_(unread) {}
+  WatchedHandler(std::unique_ptr<grpc::internal::MethodHandler> handler, UnreadWatch& unread)
+      : handler_(std::move(handler)), unread_(unread) {}
 
   // Returns when the answer is sent.
   void RunHandler(const HandlerParameter& parameter) override {
@@ -43,33 +46,17 @@ class BoundedHandler final : public grpc::internal::MethodHandler {
   }
 
   void* Deserialize(grpc_call* call, grpc_byte_buffer* bytes, grpc::Status* status, void** data) override {
-    const absl::Status checked = Check(bytes);
-    if (checked.ok()) return handler_->Deserialize(call, bytes, status, data);
-    grpc_byte_buffer_destroy(bytes);
-    *status = ToGrpcStatus(checked);
-    return nullptr;
+    return handler_->Deserialize(call, bytes, status, data);
   }
 
  private:
-  absl::Status Check(grpc_byte_buffer* bytes) const {
-    if (bytes == nullptr) return absl::OkStatus();
-    const auto length = static_cast<int64_t>(grpc_byte_buffer_length(bytes));
-    if (absl::Status too_long = CheckBytes(length, bounds_.bytes); !too_long.ok()) return too_long;
-    grpc_byte_buffer_reader reader;
-    if (grpc_byte_buffer_reader_init(&reader, bytes) == 0) return absl::OkStatus();
-    const grpc_slice whole = grpc_byte_buffer_reader_readall(&reader);
-    const absl::string_view view(reinterpret_cast<const char*>(GRPC_SLICE_START_PTR(whole)), GRPC_SLICE_LENGTH(whole));
-    absl::Status checked = CheckContent(view, request_, bounds_.elements);
-    grpc_slice_unref(whole);
-    grpc_byte_buffer_reader_destroy(&reader);
-    return checked;
-  }
-
   const std::unique_ptr<grpc::internal::MethodHandler> handler_;
-  const Descriptor& request_;
-  const MessageBounds bounds_;
   UnreadWatch& unread_;
 };
+
+// The bytes of a call's only request. gRPC passes them as const, but they are the handler's, which lets go of them once
+// they are parsed.
+grpc::ByteBuffer& OwnedBytes(const grpc::ByteBuffer* bytes) { return const_cast<grpc::ByteBuffer&>(*bytes); }
 
 }  // namespace
 
@@ -79,30 +66,41 @@ int64_t MostElements(const Limits& limits) {
   return std::max(kLeastElements, 4 * lists + 64);
 }
 
-absl::Status CheckMessage(const grpc::ByteBuffer& bytes, const Descriptor& type, const MessageBounds& bounds) {
+template <typename Request>
+absl::StatusOr<Parsed<Request>> RequestReader::Parse(grpc::ByteBuffer& bytes) const {
   const auto length = static_cast<int64_t>(bytes.Length());
-  if (absl::Status too_long = CheckBytes(length, bounds.bytes); !too_long.ok()) return too_long;
+  if (absl::Status too_long = CheckBytes(length, bounds_.bytes); !too_long.ok()) return too_long;
+  int64_t elements = 0;
   grpc::Slice whole;
-  if (!bytes.DumpToSingleSlice(&whole).ok()) return absl::OkStatus();
-  return CheckContent({reinterpret_cast<const char*>(whole.begin()), whole.size()}, type, bounds.elements);
-}
-
-absl::Status BoundedBatches::Parse(v1::SolveBatchRequest& request) {
-  if (absl::Status refused = CheckMessage(received_, *v1::SolveBatchRequest::descriptor(), bounds_); !refused.ok()) {
-    return refused;
+  if (bytes.DumpToSingleSlice(&whole).ok()) {
+    const absl::string_view view(reinterpret_cast<const char*>(whole.begin()), whole.size());
+    const absl::StatusOr<int64_t> counted = CheckContent(view, *Request::descriptor(), bounds_.elements);
+    if (!counted.ok()) return counted.status();
+    elements = *counted;
   }
-  const grpc::Status parsed = grpc::SerializationTraits<v1::SolveBatchRequest>::Deserialize(&received_, &request);
-  if (parsed.ok()) return absl::OkStatus();
+  // All requests but batches are converted as a whole, so that their numbers are there twice.
+  absl::StatusOr<CallMemory::Hold> memory = Take(length + std::min(length, kMostBytes) + kBytesPerElement * elements);
+  if (!memory.ok()) return memory.status();
+  absl::StatusOr<Parsed<Request>> parsed(absl::in_place, Parsed<Request>{*std::move(memory), Request()});
+  if (grpc::SerializationTraits<Request>::Deserialize(&bytes, &parsed->message).ok()) return parsed;
   return MakeError(absl::StatusCode::kInvalidArgument, ErrorReason::kInvalidRequest,
                    "the bytes of the request are not a message of the type that this method takes");
 }
 
-BoundedService::BoundedService(Methods& service, Batches batches, const Limits& limits, UnreadWatch& unread)
+absl::StatusOr<CallMemory::Hold> RequestReader::Take(int64_t bytes) const {
+  return memory_.Take([this] { return PeerKey(context_, auth_); }, bytes);
+}
+
+absl::StatusOr<Parsed<v1::SolveBatchRequest>> BoundedBatches::Parse() {
+  return reader_.Parse<v1::SolveBatchRequest>(received_);
+}
+
+BoundedService::BoundedService(Methods& service, Batches batches, const Limits& limits, const Frame& frame)
     : service_(service),
       batches_(std::move(batches)),
       most_elements_(MostElements(limits)),
       most_batch_bytes_(limits.max_request_bytes),
-      unread_(unread) {
+      frame_(frame) {
   AddUnary("/ricochet.v1.ImpactService/Solve", &Methods::Solve);
   AddUnary("/ricochet.v1.ImpactService/Bounds", &Methods::Bounds);
   AddStream("/ricochet.v1.ImpactService/Sweep", &Methods::Sweep);
@@ -117,43 +115,61 @@ BoundedService::BoundedService(Methods& service, Batches batches, const Limits& 
   AddUnary("/ricochet.v1.ImpactService/Info", &Methods::Info);
 }
 
+template <typename Request>
+RequestReader BoundedService::ReaderOf(const grpc::ServerContext& context) const {
+  constexpr bool kIsBatch = std::is_same_v<Request, v1::SolveBatchRequest>;
+  const int64_t most = kIsBatch ? most_batch_bytes_ : std::min(kMostBytes, most_batch_bytes_);
+  return {context, {.bytes = most, .elements = most_elements_}, frame_.memory, frame_.auth};
+}
+
 template <typename Request, typename Response>
 void BoundedService::AddUnary(const char* path,
                               grpc::Status (Methods::*method)(grpc::ServerContext*, const Request*, Response*)) {
-  const auto run = [method](Methods* service, grpc::ServerContext* context, const Request* request,
-                            Response* response) { return (service->*method)(context, request, response); };
-  Add(path, grpc::internal::RpcMethod::NORMAL_RPC, *Request::descriptor(),
-      std::make_unique<grpc::internal::RpcMethodHandler<Methods, Request, Response>>(run, &service_));
+  // gRPC gets the bytes of the answer and not the message, because it keeps what it gets until the caller has read it,
+  // and a message can take many times as much memory as its bytes.
+  const auto run = [this, method](Methods* service, grpc::ServerContext* context, const grpc::ByteBuffer* bytes,
+                                  grpc::ByteBuffer* sent) {
+    const absl::StatusOr<Parsed<Request>> request =
+        ReaderOf<Request>(*context).template Parse<Request>(OwnedBytes(bytes));
+    if (!request.ok()) return ToGrpcStatus(request.status());
+    Response response;
+    const grpc::Status status = (service->*method)(context, &request->message, &response);
+    bool is_owned = false;
+    return status.ok() ? grpc::SerializationTraits<Response>::Serialize(response, sent, &is_owned) : status;
+  };
+  Add(path, grpc::internal::RpcMethod::NORMAL_RPC,
+      std::make_unique<grpc::internal::RpcMethodHandler<Methods, grpc::ByteBuffer, grpc::ByteBuffer>>(run, &service_));
 }
 
 template <typename Request, typename Response>
 void BoundedService::AddStream(const char* path, grpc::Status (Methods::*method)(grpc::ServerContext*, const Request*,
                                                                                  grpc::ServerWriter<Response>*)) {
-  const auto run = [method](Methods* service, grpc::ServerContext* context, const Request* request,
-                            grpc::ServerWriter<Response>* writer) {
-    return (service->*method)(context, request, writer);
+  const auto run = [this, method](Methods* service, grpc::ServerContext* context, const grpc::ByteBuffer* bytes,
+                                  grpc::ServerWriter<Response>* writer) {
+    const RequestReader reader = ReaderOf<Request>(*context);
+    const absl::StatusOr<Parsed<Request>> request = reader.template Parse<Request>(OwnedBytes(bytes));
+    if (!request.ok()) return ToGrpcStatus(request.status());
+    const absl::StatusOr<CallMemory::Hold> chunk = reader.Take(kChunkBytes);
+    if (!chunk.ok()) return ToGrpcStatus(chunk.status());
+    return (service->*method)(context, &request->message, writer);
   };
-  Add(path, grpc::internal::RpcMethod::SERVER_STREAMING, *Request::descriptor(),
-      std::make_unique<grpc::internal::ServerStreamingHandler<Methods, Request, Response>>(run, &service_));
+  Add(path, grpc::internal::RpcMethod::SERVER_STREAMING,
+      std::make_unique<grpc::internal::ServerStreamingHandler<Methods, grpc::ByteBuffer, Response>>(run, &service_));
 }
 
 void BoundedService::AddBatches(const char* path) {
   const auto run = [this](grpc::ServerContext* context, BoundedBatches::Stream* stream) {
-    BoundedBatches batches(*stream, {.bytes = most_batch_bytes_, .elements = most_elements_});
+    BoundedBatches batches(*stream, ReaderOf<v1::SolveBatchRequest>(*context));
     return batches_(*context, batches);
   };
-  Add(path, grpc::internal::RpcMethod::BIDI_STREAMING, *v1::SolveBatchRequest::descriptor(),
+  Add(path, grpc::internal::RpcMethod::BIDI_STREAMING,
       std::make_unique<grpc::internal::TemplatedBidiStreamingHandler<BoundedBatches::Stream, false>>(run));
 }
 
-void BoundedService::Add(const char* path, grpc::internal::RpcMethod::RpcType type, const Descriptor& request,
+void BoundedService::Add(const char* path, grpc::internal::RpcMethod::RpcType type,
                          std::unique_ptr<grpc::internal::MethodHandler> handler) {
-  const bool is_batch = &request == v1::SolveBatchRequest::descriptor();
-  const MessageBounds bounds = {.bytes = is_batch ? most_batch_bytes_ : std::min(kMostBytes, most_batch_bytes_),
-                                .elements = most_elements_};
   // The service owns the method, and the method owns the handler.
-  AddMethod(new grpc::internal::RpcServiceMethod(path, type,
-                                                 new BoundedHandler(std::move(handler), request, bounds, unread_)));
+  AddMethod(new grpc::internal::RpcServiceMethod(path, type, new WatchedHandler(std::move(handler), frame_.unread)));
 }
 
 }  // namespace ricochet::server

@@ -1,15 +1,15 @@
-// BoundedService: ricochet.v1.ImpactService as gRPC sees it, with a bound on what a request may unfold to in memory,
-// and without requests that this server would understand in part only.
+// BoundedService: ricochet.v1.ImpactService as gRPC sees it, with bounds on what requests and answers hold in memory, and
+// without requests that this server would understand in part only.
 //
 // The bytes of a request are read first, without keeping anything (proto/wire/message_content.h): one that holds more
 // messages and texts than any request within the limits is refused with RESOURCE_EXHAUSTED and
 // ErrorReason::kLimitExceeded, one with fields or enum values that this server does not know with INVALID_ARGUMENT, and
-// is never parsed. Batches may have as many bytes as Limits::max_request_bytes, all other requests at most 1 MiB.
+// is never parsed. Batches may have as many bytes as Limits::max_request_bytes, all other requests at most 1 MiB. What a
+// request takes once it is parsed counts in the CallMemory until its handler returns.
 
 #ifndef RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_
 #define RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_
 
-#include <google/protobuf/descriptor.h>
 #include <grpcpp/impl/service_type.h>
 #include <grpcpp/server_context.h>
 #include <grpcpp/support/byte_buffer.h>
@@ -20,13 +20,15 @@
 #include <functional>
 #include <memory>
 
-#include "absl/status/status.h"
-#include "absl/strings/string_view.h"
+#include "absl/status/statusor.h"
 #include "ricochet/limits.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
+#include "server/admission/call_memory.h"
 #include "server/admission/unread_watch.h"
 
 namespace ricochet::server {
+
+class Auth;
 
 // The most bytes of a request that is no batch.
 inline constexpr int64_t kMostBytes = int64_t{1} << 20;
@@ -37,13 +39,42 @@ struct MessageBounds {
   int64_t elements = 0;
 };
 
+// A request and the memory that it holds.
+template <typename Request>
+struct Parsed {
+  CallMemory::Hold memory;
+  Request message;
+};
+
+// What the requests of one call have in common. All references must outlive this object.
+class RequestReader {
+ public:
+  RequestReader(const grpc::ServerContext& context, const MessageBounds& bounds, CallMemory& memory, Auth* auth)
+      : context_(context), bounds_(bounds), memory_(memory), auth_(auth) {}
+
+  // Makes a request of its bytes, which are let go of.
+  // Errors: those of CheckContent and CallMemory::Take, RESOURCE_EXHAUSTED with ErrorReason::kLimitExceeded for too
+  // many bytes, and INVALID_ARGUMENT if the bytes are no such request.
+  template <typename Request>
+  absl::StatusOr<Parsed<Request>> Parse(grpc::ByteBuffer& bytes) const;
+
+  // Takes memory for messages of so many bytes.
+  absl::StatusOr<CallMemory::Hold> Take(int64_t bytes) const;
+
+ private:
+  const grpc::ServerContext& context_;
+  const MessageBounds bounds_;
+  CallMemory& memory_;
+  Auth* auth_;
+};
+
 // BoundedBatches: a stream of batches. Each request is bounded by itself.
 class BoundedBatches {
  public:
   using Stream = grpc::ServerReaderWriter<v1::SolveBatchResponse, grpc::ByteBuffer>;
 
   // The stream must outlive this object.
-  BoundedBatches(Stream& stream, const MessageBounds& bounds) : stream_(stream), bounds_(bounds) {}
+  BoundedBatches(Stream& stream, const RequestReader& reader) : stream_(stream), reader_(reader) {}
 
   // Waits for the next request. Returns false if the caller sends no more or the call has ended.
   bool Receive() { return stream_.Read(&received_); }
@@ -51,16 +82,15 @@ class BoundedBatches {
   // The bytes of the request received.
   int64_t received_bytes() const { return static_cast<int64_t>(received_.Length()); }
 
-  // Reads the request received.
-  // Errors: those of CheckMessage, and INVALID_ARGUMENT if the bytes are no such request.
-  absl::Status Parse(v1::SolveBatchRequest& request);
+  // Reads the request received. Errors: those of RequestReader::Parse.
+  absl::StatusOr<Parsed<v1::SolveBatchRequest>> Parse();
 
   // Returns false if the call has ended.
   bool Write(const v1::SolveBatchResponse& response) { return stream_.Write(response); }
 
  private:
   Stream& stream_;
-  const MessageBounds bounds_;
+  const RequestReader reader_;
   grpc::ByteBuffer received_;
 };
 
@@ -69,9 +99,15 @@ class BoundedService final : public grpc::Service {
   using Methods = v1::ImpactService::Service;
   using Batches = std::function<grpc::Status(grpc::ServerContext&, BoundedBatches&)>;
 
-  // Passes every call on to `service`, and every stream of batches to `batches`. `unread` watches the answers. All must
-  // outlive this service.
-  BoundedService(Methods& service, Batches batches, const Limits& limits, UnreadWatch& unread);
+  // What the calls share. All must outlive the service.
+  struct Frame {
+    UnreadWatch& unread;   // Watches the answers.
+    CallMemory& memory;    // Is taken from for requests and streams.
+    Auth* auth = nullptr;  // Knows callers by token or certificate; null if the server has no such list.
+  };
+
+  // Passes every call on to `service`, and every stream of batches to `batches`, which must outlive this service.
+  BoundedService(Methods& service, Batches batches, const Limits& limits, const Frame& frame);
 
  private:
   // Each `path` is that of a method, "/ricochet.v1.ImpactService/Solve", and is never freed.
@@ -81,24 +117,22 @@ class BoundedService final : public grpc::Service {
   void AddStream(const char* path,
                  grpc::Status (Methods::*method)(grpc::ServerContext*, const Request*, grpc::ServerWriter<Response>*));
   void AddBatches(const char* path);
-  void Add(const char* path, grpc::internal::RpcMethod::RpcType type, const google::protobuf::Descriptor& request,
+  void Add(const char* path, grpc::internal::RpcMethod::RpcType type,
            std::unique_ptr<grpc::internal::MethodHandler> handler);
+  // Returns what reads the requests of a call.
+  template <typename Request>
+  RequestReader ReaderOf(const grpc::ServerContext& context) const;
 
   Methods& service_;
   const Batches batches_;
   const int64_t most_elements_;
   const int64_t most_batch_bytes_;
-  UnreadWatch& unread_;
+  const Frame frame_;
 };
 
 // The most messages and texts that a request may hold: at least 16,384, and more than any request within the limits
 // has.
 int64_t MostElements(const Limits& limits);
-
-// Bounds a message of type `type`.
-// Errors: those of CheckContent, and RESOURCE_EXHAUSTED with ErrorReason::kLimitExceeded for too many bytes.
-absl::Status CheckMessage(const grpc::ByteBuffer& bytes, const google::protobuf::Descriptor& type,
-                          const MessageBounds& bounds);
 
 }  // namespace ricochet::server
 

@@ -29,13 +29,18 @@ bool HasExpired(const grpc::ServerContext& context) { return context.deadline() 
 // up, and nobody waits for the record.
 class Ending {
  public:
-  Ending(std::optional<LiveCalls::Permit> place, CallRecord record, grpc::ServerContext& context,
-         const Observer& observer)
-      : place_(std::move(place)), record_(std::move(record)), context_(context), observer_(observer) {}
+  Ending(std::optional<LiveCalls::Permit> place, CallMemory::Hold answer, CallRecord record,
+         grpc::ServerContext& context, const Observer& observer)
+      : place_(std::move(place)),
+        answer_(std::move(answer)),
+        record_(std::move(record)),
+        context_(context),
+        observer_(observer) {}
   ~Ending() {
     if (record_.status != absl::StatusCode::kDeadlineExceeded && context_.IsCancelled()) {
       record_.status = HasExpired(context_) ? absl::StatusCode::kDeadlineExceeded : absl::StatusCode::kCancelled;
     }
+    answer_ = {};
     place_.reset();
     observer_.Ended(record_);
   }
@@ -44,6 +49,7 @@ class Ending {
 
  private:
   std::optional<LiveCalls::Permit> place_;
+  CallMemory::Hold answer_;
   CallRecord record_;
   grpc::ServerContext& context_;
   const Observer& observer_;
@@ -68,8 +74,9 @@ Call::~Call() {
   std::optional<LiveCalls::Permit> place;
   if (place_.ok()) place = *std::move(place_);
   const bool is_refused = !place.has_value();
-  frame_.unread.Sends(context_, is_refused,
-                      std::make_shared<Ending>(std::move(place), std::move(record_), context_, frame_.observer));
+  frame_.unread.Sends(
+      context_, is_refused,
+      std::make_shared<Ending>(std::move(place), std::move(answer_), std::move(record_), context_, frame_.observer));
 }
 
 absl::Status Call::admitted() const {
@@ -120,9 +127,17 @@ absl::StatusOr<bool> Call::Receive(absl::FunctionRef<bool()> read) {
   return false;
 }
 
+absl::Status Call::HoldAnswer(int64_t bytes) {
+  answer_ = {};
+  absl::StatusOr<CallMemory::Hold> taken = frame_.memory.Take([this] { return peer_key_; }, bytes);
+  if (taken.ok()) answer_ = *std::move(taken);
+  return taken.status();
+}
+
 absl::Status Call::Send(absl::FunctionRef<bool()> write) {
   const UnreadWatch::Write watched(frame_.unread, context_);
   const bool is_written = write();
+  answer_ = {};
   if (watched.waited() > kStall) {
     ++record_.stalls;
     record_.stalled_s += watched.waited().count();

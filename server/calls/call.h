@@ -17,6 +17,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/call_options.h"
+#include "server/admission/call_memory.h"
 #include "server/admission/live_calls.h"
 #include "server/admission/scheduler.h"
 #include "server/admission/unread_watch.h"
@@ -38,6 +39,7 @@ class Auth;
 // CallFrame: the objects that all calls of a server share.
 struct CallFrame {
   LiveCalls& live_calls;
+  CallMemory& memory;
   Scheduler& scheduler;
   UnreadWatch& unread;
   DrainStops drain;
@@ -77,6 +79,10 @@ class Call {
   // unread, or if the drain has begun.
   absl::StatusOr<bool> Receive(absl::FunctionRef<bool()> read);
 
+  // Takes memory for an answer of so many bytes, until the answer is sent, or for one message of a stream, until Send
+  // returns. Errors: those of CallMemory::Take.
+  absl::Status HoldAnswer(int64_t bytes);
+
   // Sends one message of a stream by `write`, which returns false if the call has ended.
   absl::Status Send(absl::FunctionRef<bool()> write);
 
@@ -102,6 +108,7 @@ class Call {
   mutable std::chrono::steady_clock::time_point next_look_;
   mutable bool is_cancelled_ = false;
   absl::StatusOr<LiveCalls::Permit> place_;
+  CallMemory::Hold answer_;
   // The status UNKNOWN stays if a handler throws and never finishes; gRPC then answers the same.
   CallRecord record_;
 };

@@ -91,6 +91,7 @@ grpc::Status ImpactService::Answer(const char* name, Method method, grpc::Server
     CountModel(*answer, call.record());
     response = ToProto(*answer);
     call.record().sent_bytes = static_cast<int64_t>(response.ByteSizeLong());
+    status = call.HoldAnswer(call.record().sent_bytes);
   });
   return call.Finish(computed.ok() ? status : computed);
 }
@@ -156,6 +157,7 @@ grpc::Status ImpactService::SolveBatch(grpc::ServerContext* context, const v1::S
   const absl::Status computed = call.Compute(answer.CostOf(*request), [&] {
     status = answer.Fill(*request, *response, call.record());
     call.record().sent_bytes = static_cast<int64_t>(response->ByteSizeLong());
+    if (status.ok()) status = call.HoldAnswer(call.record().sent_bytes);
   });
   return call.Finish(computed.ok() ? status : computed);
 }
@@ -168,25 +170,28 @@ grpc::Status ImpactService::AnswerBatches(grpc::ServerContext& context, BoundedB
 
 absl::Status ImpactService::Answer(BoundedBatches& batches, Call& call) const {
   BatchAnswer answer(solver_, call.options());
-  v1::SolveBatchRequest request;
-  v1::SolveBatchResponse response;
   for (;;) {
     const absl::StatusOr<bool> received = call.Receive([&] { return batches.Receive(); });
     if (!received.ok()) return received.status();
     if (!*received) return absl::OkStatus();
     call.record().received_bytes += batches.received_bytes();
-    if (absl::Status wrong = batches.Parse(request); !wrong.ok()) return wrong;
+    // The messages live for one batch only, so that a stream which waits for its caller holds no memory.
+    const absl::StatusOr<Parsed<v1::SolveBatchRequest>> request = batches.Parse();
+    if (!request.ok()) return request.status();
+    v1::SolveBatchResponse response;
     // A step of a simulation is short and answered at once; a long batch takes its turn among the parts of streams.
-    const RequestCost cost = answer.CostOf(request);
+    const RequestCost cost = answer.CostOf(request->message);
     absl::Status status;
     absl::Status computed = call.Compute(cost.is_cheap() ? std::optional(cost) : std::nullopt,
-                                         [&] { status = answer.Fill(request, response, call.record()); });
+                                         [&] { status = answer.Fill(request->message, response, call.record()); });
     if (!computed.ok()) return computed;
     if (!status.ok()) return status;
     const auto bytes = static_cast<int64_t>(response.ByteSizeLong());
     ++call.record().chunks;
     call.record().chunk_bytes += bytes;
     call.record().sent_bytes += bytes;
+    // A stream keeps the message beside its bytes until they are sent.
+    if (absl::Status held = call.HoldAnswer(2 * bytes); !held.ok()) return held;
     if (absl::Status sent = call.Send([&] { return batches.Write(response); }); !sent.ok()) return sent;
   }
 }

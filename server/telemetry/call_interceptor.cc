@@ -37,15 +37,11 @@ struct Refusal {
   absl::Status status;
 };
 
-Refusal Malformed() {
-  return {kMalformedReason, MakeError(absl::StatusCode::kInvalidArgument, ErrorReason::kInvalidRequest,
-                                      "the bytes of the request are not a message of the type that this method takes")};
-}
-
 Refusal RefusalOf(const absl::Status& status) {
+  // Bytes that are no message are the only invalid request of which no field can be named.
+  if (absl::IsInvalidArgument(status) && ViolationsOf(status).empty()) return {kMalformedReason, status};
   const std::string reason = ReasonName(ReasonOf(status));
   if (!reason.empty()) return {reason, status};
-  if (absl::IsInternal(status) && status.message().empty()) return Malformed();
   if (absl::IsResourceExhausted(status)) return {kThreadsReason, NoThread()};
   if (absl::IsUnimplemented(status)) return {kUnknownMethodReason, status};
   return {kRefusedByGrpcReason, status};

@@ -1,12 +1,13 @@
 """Small requests that ask for much: none may take more than 64 MiB or end the process, and each can be stopped."""
 
+import struct
 import threading
 
 import grpc
 
 from calls import HARD_DURATION, cheap, channel, linkage, pb, request, require_served
 from framework import Server, check, cpu_until_idle, main, require, tools
-from http2 import SERVICE
+from http2 import DATA, END_STREAM, SERVICE, RawConnection, frame, message
 
 MOST_MIB = 64  # The most memory that one request may take.
 DEADLINE_S = 1.0
@@ -220,6 +221,64 @@ def register(name, make):
 
 for row_name, row_make in ROWS.items():
     register(row_name, row_make)
+
+
+CALL_MEMORY_MIB = 64
+COMPUTES_MIB = 96  # For what computes, and for the messages of 1 MiB that gRPC itself holds.
+
+
+def unread_histories():
+    what = cheap()
+    what.history_intervals = 65000
+    return "Solve", what, 200
+
+
+def unread_batches():
+    what = request("SolveBatch", "")
+    what.setup.scene.CopyFrom(cheap().scene)
+    what.setup.fields.append("friction.kinetic_coefficient")
+    what.setup.columns.append("coefficients.newton")
+    what.inputs.append(struct.pack("<d", 0.3) * (1 << 20))
+    return "SolveBatches", what, 40
+
+
+def send_whole(line, path, body):
+    """Sends the only message of a call as the server gives credit for it."""
+    payload = message(body)
+    stream = line.open(path)
+    line.send_data(stream, [payload[start:start + 16384] for start in range(0, len(payload), 16384)], seconds=10)
+    line.send(frame(DATA, END_STREAM, stream))
+
+
+def register_unread(name, make):
+    def run():
+        method, what, calls = make()
+        body = what.SerializeToString()
+        with Server(drain_grace=0.2, call_memory=CALL_MEMORY_MIB) as server:
+            before = warm(server)
+            with RawConnection(server.host, server.port, source="127.0.0.2", window=0) as first, \
+                 RawConnection(server.host, server.port, source="127.0.0.2", window=0) as second:
+                for line in (first, second):
+                    for _ in range(calls // 2):
+                        send_whole(line, SERVICE + method, body)
+                for line in (first, second):
+                    line.read(8)
+                statuses = [stream.status() for line in (first, second) for stream in line.streams.values()]
+                took = server.peak_mib() - before
+                require(server.alive(), "the process ended")
+                require_served(server, 10)
+            refused = statuses.count(grpc.StatusCode.RESOURCE_EXHAUSTED.value[0])
+            require(0 < refused < calls, f"{refused} calls of {calls} were refused")
+            require(took <= CALL_MEMORY_MIB + COMPUTES_MIB, f"it takes {took:.0f} MiB")
+            return {"calls": calls, "refused": refused, "MiB": took}
+
+    check(f"unread: {name}",
+          f"answers that nobody reads take at most {COMPUTES_MIB} MiB beside the {CALL_MEMORY_MIB} MiB of --call-memory, "
+          "and others are served", kind="input")(run)
+
+
+register_unread("200 histories", unread_histories)
+register_unread("40 batches of 8 MiB", unread_batches)
 
 
 if __name__ == "__main__":

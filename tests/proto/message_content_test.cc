@@ -25,7 +25,7 @@ std::string Field(int number, const std::string& bytes) {
 }
 
 absl::Status Check(const std::string& bytes, int64_t most = 10) {
-  return CheckContent(bytes, *v1::SolveRequest::descriptor(), most);
+  return CheckContent(bytes, *v1::SolveRequest::descriptor(), most).status();
 }
 
 TEST(CheckContent, CountsMessagesInMessages) {
@@ -43,7 +43,7 @@ TEST(CheckContent, CountsTexts) {
   v1::SweepRequest sweep;
   for (int i = 0; i < 11; ++i) sweep.add_columns();
   EXPECT_FALSE(CheckContent(sweep.SerializeAsString(), *v1::SweepRequest::descriptor(), 10).ok());
-  EXPECT_TRUE(CheckContent(sweep.SerializeAsString(), *v1::SweepRequest::descriptor(), 11).ok());
+  EXPECT_EQ(CheckContent(sweep.SerializeAsString(), *v1::SweepRequest::descriptor(), 12).value(), 11);
 }
 
 TEST(CheckContent, DoesNotCountPackedNumbers) {

@@ -16,6 +16,7 @@ struct MadeFrame {
       : scheduler(2, 64, drain.streams),
         unread(unread_limit),
         frame{.live_calls = live_calls,
+              .memory = memory,
               .scheduler = scheduler,
               .unread = unread,
               .drain = std::move(drain),
@@ -23,6 +24,7 @@ struct MadeFrame {
               .observer = observer} {}
 
   LiveCalls live_calls{LiveCallLimitsFor(64)};
+  CallMemory memory{int64_t{64} << 20};
   Scheduler scheduler;
   UnreadWatch unread;
   CallFrame frame;

@@ -135,10 +135,11 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                                       }},
                              GoodCase{"Connections",
                                       {.flags = {"--max-connections", "9", "--max-connections-per-peer", "8",
-                                                 "--transport-memory", "7"}},
+                                                 "--transport-memory", "7", "--call-memory", "6"}},
                                       [](Options& o) {
                                         o.connections = {.in_all = 9, .per_peer = 8};
                                         o.transport_memory_mib = 7;
+                                        o.call_memory_mib = 6;
                                       }},
                              GoodCase{"PortFile",
                                       {.flags = {"--port-file", "/run/a b"}},
@@ -409,7 +410,7 @@ std::map<std::string, std::pair<std::string, std::string>> Ranges() {
   for (const char* const name : {"drain-grace", "drain-timeout"}) ranges[name] = {"0", "3600"};
   ranges["max-threads"] = {"1152", "1048576"};
   ranges["compute-threads"] = {"1", "1024"};
-  ranges["transport-memory"] = {"1", "1048576"};
+  for (const char* const name : {"transport-memory", "call-memory"}) ranges[name] = {"1", "1048576"};
   for (const NamedLimit& limit : kLimits) {
     ranges[absl::StrReplaceAll(limit.name, {{"_", "-"}})] = {"1", std::to_string(limit.most)};
   }
@@ -479,6 +480,7 @@ TEST(Options, HelpNamesEveryOption) {
                              "--max-connections",
                              "--max-connections-per-peer",
                              "--transport-memory",
+                             "--call-memory",
                              "--handshake-timeout",
                              "--idle-timeout",
                              "--max-live-calls",

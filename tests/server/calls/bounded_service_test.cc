@@ -51,10 +51,10 @@ class AnsweringService final : public v1::ImpactService::Service {
 // Answers each batch by the number of its columns.
 grpc::Status AnswerBatches(grpc::ServerContext& /*context*/, BoundedBatches& batches) {
   while (batches.Receive()) {
-    v1::SolveBatchRequest request;
-    if (absl::Status wrong = batches.Parse(request); !wrong.ok()) return ToGrpcStatus(wrong);
+    const absl::StatusOr<Parsed<v1::SolveBatchRequest>> request = batches.Parse();
+    if (!request.ok()) return ToGrpcStatus(request.status());
     v1::SolveBatchResponse response;
-    response.set_regimes(std::to_string(request.inputs_size()));
+    response.set_regimes(std::to_string(request->message.inputs_size()));
     batches.Write(response);
   }
   return grpc::Status::OK;
@@ -76,7 +76,8 @@ class BoundedServiceTest : public testing::Test {
 
   AnsweringService service_;
   UnreadWatch unread_{std::chrono::seconds(30)};
-  BoundedService bounded_{service_, AnswerBatches, Limits(), unread_};
+  CallMemory memory_{int64_t{512} << 20};
+  BoundedService bounded_{service_, AnswerBatches, Limits(), {.unread = unread_, .memory = memory_}};
   std::unique_ptr<grpc::Server> server_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::ImpactService::Stub> stub_;
