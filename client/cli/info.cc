@@ -12,6 +12,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/input/make_solver.h"
+#include "client/cli/io/csv_row.h"
 #include "client/cli/program.h"
 #include "client/cli/text/enum_names.h"
 #include "proto/wire/plan.h"
@@ -98,11 +99,11 @@ std::string InfoText(const InfoResponse& info) {
 }
 
 std::string InfoCsv(const InfoResponse& info) {
-  std::vector<Row> rows = {{"version", info.engine.version, ""},
-                           {"fingerprint", info.engine.fingerprint, ""},
-                           {"features", Features(info, " "), ""},
-                           {"systems", absl::StrJoin(info.systems, " "), ""},
-                           {"models", Models(info, " "), ""}};
+  std::vector<Row> rows = {{"version", CsvQuoted(info.engine.version), ""},
+                           {"fingerprint", CsvQuoted(info.engine.fingerprint), ""},
+                           {"features", CsvQuoted(Features(info, " ")), ""},
+                           {"systems", CsvQuoted(absl::StrJoin(info.systems, " ")), ""},
+                           {"models", CsvQuoted(Models(info, " ")), ""}};
   for (const std::vector<Row>& more : {RequestLimits(info.limits), LimitsOfServer(info)}) {
     rows.insert(rows.end(), more.begin(), more.end());
   }

@@ -199,7 +199,6 @@ void AddSolve(CLI::App& app, Command& command) {
                 "Fail if the outcome is inadmissible or a law has no solution; with --data, if that or an invalid row "
                 "occurs, after writing all");
   AddPictureOptions(*sub, "velocities and forces over impulse or time, and in space also the slip,", options->picture);
-  AddAxisOptions(*sub, options->picture);
   MarkFile(FileUse::kWritten,
            sub->add_option("--html", options->html,
                            "Write the pictures of `ricochet explore` as one page that needs nothing beside it; - for "

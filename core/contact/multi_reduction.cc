@@ -65,7 +65,7 @@ MultiReduction ReduceBodies(const std::vector<FreeBody>& bodies, const std::vect
   std::vector<std::vector<Share>> shares;
   for (size_t c = 0; c < contacts.size(); ++c) {
     const MultiContactPoint& contact = contacts[c];
-    directions.push_back(DirectionsOf(contact));
+    directions.push_back(ContactDirections(contact));
     shares.emplace_back();
     for (const auto& [number, side] : {std::pair(contact.body, 1.0), std::pair(contact.other_body, -1.0)}) {
       if (number == 0) continue;
@@ -146,7 +146,7 @@ Eigen::VectorXd MultiReduction::ContactVelocity(const Eigen::VectorXd& velocitie
   return jacobian * velocities;
 }
 
-Eigen::MatrixXd DirectionsOf(const MultiContactPoint& contact) {
+Eigen::MatrixXd ContactDirections(const MultiContactPoint& contact) {
   const Eigen::VectorXd normal = ToEigen(contact.normal, static_cast<Eigen::Index>(contact.normal.size()));
   const Eigen::VectorXd n = normal / normal.stableNorm();
   Eigen::MatrixXd directions(n.size(), n.size());

@@ -33,7 +33,7 @@ struct MultiReduction {
 MultiReduction Reduce(const MultiContactScene& scene);
 
 // The directions of a contact in the coordinates of the bodies, one in each row: t, n or t1, t2, n.
-Eigen::MatrixXd DirectionsOf(const MultiContactPoint& contact);
+Eigen::MatrixXd ContactDirections(const MultiContactPoint& contact);
 
 // The largest distance of a component of the velocity from the range of W, over sqrt(W_jj), and over the norm of the
 // magnitudes that the velocity is a sum of, in the same unit; infinite if W_jj is 0 and the component is not.

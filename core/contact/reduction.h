@@ -83,8 +83,8 @@ double ApproachSpeed(const AnyReduction& reduction);
 // 1/2 v.W+ v with the pseudo-inverse W+ of W: the least kinetic energy, in J, that goes with the contact velocity.
 double ContactEnergy(const AnyReduction& reduction);
 
-// True only if that eigenvalue exceeds 2^-12, at a fraction of its cost: with a unit diagonal the three eigenvalues add
-// up to 3, so that the smallest of three positive ones is at least 4/9 of the determinant.
+// True only if the matrix of 11, 12, 13, 22, 23, 33, scaled to a unit diagonal, has no eigenvalue below 2^-12. This
+// spares the eigenvalues: they add up to 3, so that the smallest positive one is at least 4/9 of the determinant.
 bool IsSurelyDefinite(absl::Span<const double> upper);
 
 // The share of the velocity (u0, v0) that lies outside the range of W: 0 if the velocity lies within it, 1 if it is

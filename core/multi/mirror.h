@@ -27,8 +27,8 @@ struct Mirror {
   void Average(std::array<double, kMostContacts>& x) const;
 };
 
-// A planar problem whose contacts are sorted by their numbers, and whose tangential directions are turned so that slip
-// is not negative.
+// A problem in a plane whose contacts are sorted by their numbers, and whose tangential directions are turned so that
+// slip is not negative.
 struct SortedProblem {
   Problem problem;
   std::array<int, kMostContacts> from{};     // The place of each contact in the scene.

@@ -60,7 +60,7 @@ class Client:
         deadline: the time that one call may take, s, or ``"250ms"``, ``"5m"``; by default any in this process and for a
             sweep, 10 s for other calls of a server.
         max_receive: bytes of one message of an answer, in [1, 2147483647]; by default 67108864.
-        tls: encrypt, and make sure of the server; the next four imply it.
+        tls: encrypt, and make sure of the server; ``tls_ca``, ``tls_cert``, ``tls_key`` and ``server_name`` imply it.
         tls_ca: PEM file with the authorities that the server's certificate must come from; by default the system's.
         tls_cert: PEM file with this client's certificate.
         tls_key: PEM file with the private key of ``tls_cert``.

@@ -98,6 +98,11 @@ void WriteGrpcMessage(gpr_log_func_args* message) {
 
 }  // namespace
 
+std::string Clipped(const std::string& text) {
+  constexpr size_t kMostBytes = 256;
+  return text.size() <= kMostBytes ? text : text.substr(0, kMostBytes) + "...";
+}
+
 Log::Log(LogFormat format, LogLevel level, std::function<void(absl::string_view)> put)
     : format_(format),
       level_(level),

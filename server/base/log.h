@@ -36,6 +36,9 @@ struct LogField {
   std::variant<std::string, int64_t, double> value;
 };
 
+// Returns at most 256 bytes of a text that a caller sent, so that no call fills the log.
+std::string Clipped(const std::string& text);
+
 // Thread safety: Write may be called from several threads at once.
 class Log {
  public:

@@ -34,10 +34,12 @@ bool WatchedFile::HasChanged() const {
 absl::StatusOr<std::string> WatchedFile::Read() {
   const auto failed = [this] { return absl::ErrnoToStatus(errno, absl::StrCat("cannot read ", path_)); };
   seen_.reset();
-  const Descriptor file(open(path_.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor file(open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat now = {};
   // The state is taken before the contents, so that a change in between is noticed the next time.
   if (!file.is_open() || fstat(file.number(), &now) != 0) return failed();
+  // A pipe could make the server wait for ever, and gives its contents only once.
+  if (!S_ISREG(now.st_mode)) return absl::InvalidArgumentError(absl::StrCat(path_, " is not a regular file"));
   std::string text;
   std::array<char, 4096> part = {};
   for (;;) {

@@ -1,11 +1,11 @@
-// BoundedService: ricochet.v1.ImpactService as gRPC sees it, with bounds on what requests and answers hold in memory, and
-// without requests that this server would understand in part only.
+// BoundedService: ricochet.v1.ImpactService as gRPC sees it, with bounds on what requests and answers hold in memory,
+// and without requests that this server would understand in part only.
 //
 // The bytes of a request are read first, without keeping anything (proto/wire/message_content.h): one that holds more
 // messages and texts than any request within the limits is refused with RESOURCE_EXHAUSTED and
 // ErrorReason::kLimitExceeded, one with fields or enum values that this server does not know with INVALID_ARGUMENT, and
-// is never parsed. Batches may have as many bytes as Limits::max_request_bytes, all other requests at most 1 MiB. What a
-// request takes once it is parsed counts in the CallMemory until its handler returns.
+// is never parsed. Batches may have as many bytes as Limits::max_request_bytes, all other requests at most 1 MiB. What
+// a request takes once it is parsed counts in the CallMemory until its handler returns.
 
 #ifndef RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_
 #define RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_

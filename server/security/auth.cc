@@ -113,7 +113,7 @@ absl::Status Auth::Refuse(absl::Status refusal, const Evidence& evidence, const 
               {"request_id", RequestIdOr(evidence.request_id)},
               {"caller", caller},
               {"certificate", absl::StrJoin(evidence.certificate_names, ",")},
-              {"user_agent", evidence.user_agent},
+              {"user_agent", Clipped(evidence.user_agent)},
               {"reason", why}});
   return refusal;
 }

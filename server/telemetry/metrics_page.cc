@@ -42,10 +42,11 @@ absl::Status MetricsPage::Start() {
   ListenAddress numeric = address_;
   if (numeric.host == "localhost") numeric.host = "127.0.0.1";
   const std::string where = ToString(numeric);
-  // Two threads, requests of at most 10 s, no connection kept open.
+  // A connection has a thread until it ends: it is not kept open, and may be silent for five seconds. With 32 threads a
+  // probe of health is answered beside some clients that send nothing.
   std::array<const char*, 9> options = {
-      "listening_ports", where.c_str(),       "num_threads", "2",    "request_timeout_ms",
-      "10000",           "enable_keep_alive", "no",          nullptr};
+      "listening_ports",   where.c_str(), "num_threads", "32", "request_timeout_ms", "5000",
+      "enable_keep_alive", "no",          nullptr};
   std::array<char, 256> reason = {};
   mg_init_data how = {.callbacks = nullptr, .user_data = this, .configuration_options = options.data()};
   mg_error_data error = {.code = nullptr, .text = reason.data(), .text_buffer_size = reason.size()};

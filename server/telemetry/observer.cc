@@ -1,6 +1,5 @@
 #include "server/telemetry/observer.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,13 +11,6 @@
 
 namespace ricochet::server {
 namespace {
-
-// Text from the caller is cut to this number of bytes in the log.
-constexpr size_t kMostBytes = 256;
-
-std::string Clipped(const std::string& text) {
-  return text.size() <= kMostBytes ? text : text.substr(0, kMostBytes) + "...";
-}
 
 // Returns "pendulum:1" for one solved impact, "pendulum:998,sliding:2" for a sweep.
 std::string Models(const CallRecord& call) {

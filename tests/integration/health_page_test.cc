@@ -9,6 +9,7 @@
 #include <array>
 #include <csignal>
 #include <string>
+#include <vector>
 
 #include "ricochet/health.h"
 #include "tests/support/processes/eventually.h"
@@ -22,18 +23,24 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// Returns the answer with its head; an empty text without one.
-std::string Ask(const std::string& address, const std::string& request) {
+// Returns a connection, or a socket that is not connected.
+int Connect(const std::string& address) {
   const int connection = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int port = std::stoi(address.substr(address.rfind(':') + 1));
   const sockaddr_in to = {.sin_family = AF_INET,
                           .sin_port = htons(static_cast<uint16_t>(port)),
                           .sin_addr = {htonl(INADDR_LOOPBACK)},
                           .sin_zero = {}};
+  EXPECT_EQ(connect(connection, reinterpret_cast<const sockaddr*>(&to), sizeof(to)), 0);
+  return connection;
+}
+
+// Returns the answer with its head; an empty text without one.
+std::string Ask(const std::string& address, const std::string& request) {
+  const int connection = Connect(address);
   const std::string text = request + " HTTP/1.0\r\n\r\n";
   std::string answer;
-  if (connect(connection, reinterpret_cast<const sockaddr*>(&to), sizeof(to)) == 0 &&
-      write(connection, text.data(), text.size()) == static_cast<ssize_t>(text.size())) {
+  if (write(connection, text.data(), text.size()) == static_cast<ssize_t>(text.size())) {
     std::array<char, 4096> part = {};
     for (ssize_t count = 0; (count = read(connection, part.data(), part.size())) > 0;) {
       answer.append(part.data(), static_cast<size_t>(count));
@@ -59,6 +66,18 @@ TEST(HealthPage, SaysWhatTheHealthOfTheServiceSaysBeforeAndInTheDrain) {
   EXPECT_THAT(Ask(page, "GET /metrics"), HasSubstr("\nricochet_serving 0\n"));
   server.Terminate();  // The second signal ends the grace.
   EXPECT_EQ(server.Wait(), 0);
+}
+
+TEST(HealthPage, AnswersBesideConnectionsThatSendNothing) {
+  const ServerProcess server({"--metrics", "127.0.0.1:0"});
+  const std::string page = server.LoggedAddress("metrics");
+  std::vector<int> silent;
+  for (int i = 0; i < 20; ++i) silent.push_back(Connect(page));
+  EXPECT_THAT(Ask(page, "GET /healthz"), StartsWith("HTTP/1.1 200 "));
+  // The answer did not wait for the end of one of them: reading finds nothing, not even an end.
+  char byte = 0;
+  EXPECT_EQ(recv(silent.front(), &byte, 1, MSG_DONTWAIT), -1);
+  for (const int connection : silent) close(connection);
 }
 
 TEST(HealthPage, TakesNothingElse) {

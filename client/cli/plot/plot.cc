@@ -14,6 +14,7 @@
 #include "client/cli/io/output.h"
 #include "client/cli/io/output_format.h"
 #include "client/cli/plot/gnuplot.h"
+#include "client/cli/plot/plot_axis.h"
 #include "client/cli/plot/plot_curves.h"
 #include "client/cli/plot/plot_layout.h"
 #include "client/cli/plot/plot_scale.h"
@@ -288,18 +289,21 @@ std::string PlotScript(const Plot& plot, const std::string& terminal) {
   return script;
 }
 
-// The length of an axis, which may have both signs, and a margin must not leave the range of doubles.
+// The length of an axis, which may have both signs, and a margin must not leave the range of doubles; nor may the lower
+// end of a logarithmic axis.
+bool Fits(double number, bool log) {
+  return !std::isfinite(number) || (std::fabs(number) <= 1e300 && !(log && number > 0.0 && number < kLeastOnAxis));
+}
+
 bool CanBeDrawn(const Plot& plot) {
-  constexpr double kMost = 1e300;
-  const auto fits = [](double number) { return !std::isfinite(number) || std::fabs(number) <= kMost; };
   for (const Panel& panel : plot.panels) {
     for (const Curve& curve : panel.curves) {
       for (const auto& [x, y] : curve.points) {
-        if (!fits(x) || !fits(y)) return false;
+        if (!Fits(x, panel.log_x) || !Fits(y, panel.log_y)) return false;
       }
     }
     for (const MapPoint& point : panel.map) {
-      if (!fits(point.x) || !fits(point.y) || !fits(point.value)) return false;
+      if (!Fits(point.x, panel.log_x) || !Fits(point.y, panel.log_y) || !Fits(point.value, false)) return false;
     }
   }
   return true;
@@ -310,7 +314,7 @@ bool CanBeDrawn(const Plot& plot) {
 absl::StatusOr<std::string> DrawAs(const Plot& plot, const std::string& format) {
   if (!CanBeDrawn(plot)) {
     return absl::InvalidArgumentError(
-        "the picture has numbers beyond 1e300, which no axis can show; --format csv writes them");
+        "the picture has numbers beyond 1e300, or below 1e-300 on a logarithmic axis, which no axis can show");
   }
   absl::StatusOr<std::string> picture = RunGnuplot(PlotScript(plot, format));
   if (!picture.ok()) return picture.status();

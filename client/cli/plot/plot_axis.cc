@@ -73,9 +73,10 @@ double RoomFor(const std::vector<Tick>& ticks, double character, bool stacked) {
   return (static_cast<double>(Widest(ticks)) + 2.0) * character;
 }
 
-// The ticks at every `every`-th power of ten.
+// The ticks at every `every`-th power of ten; from ten on at the multiples of `every`.
 std::vector<Tick> PowerTicks(int first, int last, int every) {
   std::vector<Tick> ticks;
+  while (every >= 10 && first % every != 0) ++first;
   for (int exponent = first; exponent <= last; exponent += every) {
     ticks.push_back({std::pow(10.0, exponent), PowerOfTen(exponent)});
   }
@@ -99,9 +100,9 @@ std::vector<Tick> UnclampedTicks(const AxisRange& range, double length, double c
     const int first = static_cast<int>(std::ceil(std::log10(range.lower) - 1e-9));
     const int last = static_cast<int>(std::floor(std::log10(range.upper) + 1e-9));
     if (last > first) {
-      const double decade = length / std::log10(range.upper / range.lower);
+      const double decade = length / (std::log10(range.upper) - std::log10(range.lower));
       int every = 1;
-      while (every * decade < RoomFor(PowerTicks(first, last, every), character, stacked)) ++every;
+      while (every * decade < RoomFor(PowerTicks(first, last, every), character, stacked)) every += every < 10 ? 1 : 10 - every % 10;
       return PowerTicks(first, last, every);
     }
     std::vector<Tick> ticks = ShortLogTicks(range);
@@ -150,12 +151,13 @@ AxisRange RangeFor(double least, double most, double margin, double noise, bool 
   if (most - least <= std::max(noise, kRounding * scale)) {
     const double middle = least + 0.5 * (most - least);
     if (log) return {middle / 2.0, middle * 2.0};
-    const double half = std::max({0.1 * scale, 10.0 * noise, scale == 0.0 ? 1.0 : 0.0});
+    const double half = std::max({0.1 * scale, 10.0 * noise, scale < kLeastOnAxis ? 1.0 : 0.0});
     return {middle - half, middle + half};
   }
   if (log) {
-    const double factor = std::pow(most / least, margin);
-    return {least / factor, most * factor};
+    const double factor = std::exp(margin * (std::log(most) - std::log(least)));
+    return {std::max(least / factor, std::numeric_limits<double>::min()),
+            std::min(most * factor, std::numeric_limits<double>::max())};
   }
   const double distance = margin * (most - least);
   return {least - distance, most + distance};

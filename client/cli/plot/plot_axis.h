@@ -9,6 +9,9 @@
 
 namespace ricochet::cli {
 
+// Positive numbers below this are 0 on a linear axis, and cannot be shown on a logarithmic one.
+inline constexpr double kLeastOnAxis = 1e-300;
+
 struct AxisRange {
   double lower = 0.0;
   double upper = 1.0;

@@ -47,12 +47,13 @@ std::string MarkStyle(Mark mark, int look) {
 
 using Points = std::vector<std::pair<double, double>>;
 
-// Returns the points of a curve without a shown point beside them: a line does not show them.
+// Returns the points of a curve without another shown point beside them: a line does not show them.
 Points Isolated(const Points& points, const Axes& axes) {
   Points isolated;
   for (size_t i = 0; i < points.size(); ++i) {
-    const bool after = i > 0 && axes.Shows(points[i - 1]);
-    const bool before = i + 1 < points.size() && axes.Shows(points[i + 1]);
+    const auto joins = [&](const auto& other) { return axes.Shows(other) && other != points[i]; };
+    const bool after = i > 0 && joins(points[i - 1]);
+    const bool before = i + 1 < points.size() && joins(points[i + 1]);
     if (axes.Shows(points[i]) && !after && !before) isolated.push_back(points[i]);
   }
   return isolated;

@@ -33,7 +33,8 @@ struct Axes {
   }
   // Returns where a shown value is on the axis upwards: 0 at its lower end, 1 at its upper end.
   double Height(double value) const {
-    return log_y ? std::log(value / y.lower) / std::log(y.upper / y.lower) : (value - y.lower) / (y.upper - y.lower);
+    if (!log_y) return (value - y.lower) / (y.upper - y.lower);
+    return (std::log(value) - std::log(y.lower)) / (std::log(y.upper) - std::log(y.lower));
   }
 };
 

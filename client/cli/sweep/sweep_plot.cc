@@ -84,7 +84,7 @@ std::vector<double> Distinct(std::vector<double> values) {
 bool AreLogSpaced(const std::vector<double>& values) {
   if (values.size() < 3 || !(values.front() > 0.0)) return false;
   const auto steps = static_cast<double>(values.size() - 1);
-  const double step = std::log(values.back() / values.front()) / steps;
+  const double step = (std::log(values.back()) - std::log(values.front())) / steps;
   for (size_t i = 0; i < values.size(); ++i) {
     const double expected = std::log(values.front()) + static_cast<double>(i) * step;
     if (std::abs(std::log(values[i]) - expected) > 1e-6 * step) return false;
@@ -94,7 +94,8 @@ bool AreLogSpaced(const std::vector<double>& values) {
 
 // --- Curves ---
 
-// The points that agree on all axes but the last, in the order of the table.
+// The points that agree on all axes but the last, in the order of that axis; or all points, in the order of the table,
+// where the axes advance together.
 struct Group {
   std::vector<double> outer;  // Their values on those axes.
   std::vector<size_t> points;
@@ -115,7 +116,13 @@ std::vector<Group> GroupsOf(const SweepTable& table) {
     }
   }
   // Where no two points agree, the axes advance together, and the points are one curve.
-  if (groups.size() < 2 || groups.size() != table.points() || Distinct(table.at.back()).size() < 2) return groups;
+  if (groups.size() < 2 || groups.size() != table.points() || Distinct(table.at.back()).size() < 2) {
+    const std::vector<double>& x = table.at.back();
+    for (Group& group : groups) {
+      std::stable_sort(group.points.begin(), group.points.end(), [&x](size_t a, size_t b) { return x[a] < x[b]; });
+    }
+    return groups;
+  }
   Group all;
   for (size_t i = 0; i < table.points(); ++i) all.points.push_back(i);
   return {all};
@@ -229,6 +236,10 @@ absl::StatusOr<Plot> CurvesOf(const SweepTable& table) {
     names.push_back(LabelOfAll(table, columns).name);
   }
   plot.title = absl::StrCat(absl::StrJoin(names, "; "), " over ", LabelIn(table, table.axes.back()).name);
+  const bool advance_together = groups.size() == 1 && groups.front().outer.empty();
+  for (size_t axis = 0; advance_together && axis + 1 < table.axes.size(); ++axis) {
+    absl::StrAppend(&plot.title, axis == 0 ? ", with " : " and ", LabelIn(table, table.axes[axis]).name);
+  }
   return plot;
 }
 
@@ -275,10 +286,23 @@ absl::StatusOr<Plot> MapsOf(const SweepTable& table, const std::vector<double>& 
   return plot;
 }
 
+// Files can have values that no sweep has.
+absl::Status CheckAxes(const SweepTable& table) {
+  for (size_t axis = 0; axis < table.axes.size(); ++axis) {
+    const Values& at = table.at[axis];
+    const auto wrong = std::find_if(at.begin(), at.end(), [](double value) { return !std::isfinite(value); });
+    if (wrong == at.end()) continue;
+    return absl::InvalidArgumentError(absl::StrCat(table.axes[axis], " = ", *wrong, " at point ", wrong - at.begin(),
+                                                   ": must be finite to be drawn"));
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::StatusOr<Plot> PlotOf(const SweepTable& table, PlotKind kind) {
   if (table.axes.empty()) return absl::FailedPreconditionError("a sweep without an axis cannot be drawn");
+  if (absl::Status finite = CheckAxes(table); !finite.ok()) return finite;
   if (kind != PlotKind::kCurves && table.axes.size() == 2) {
     const std::vector<double> xs = Distinct(table.at[1]);
     const std::vector<double> ys = Distinct(table.at[0]);

@@ -22,7 +22,7 @@ constexpr std::array kNamed = {
     Named{"pendulum.a_m", "a", "horizontal distance a"},
     Named{"pendulum.b_m", "b", "depth b"},
     Named{"pendulum.inertia_kg_m2", "J", "moment of inertia J"},
-    Named{"pendulum.omega_minus_rad_s", "ω-", "angular velocity before, ω-"},
+    Named{"pendulum.omega_minus_rad_s", "ω⁻", "angular velocity before, ω⁻"},
     Named{"friction.kinetic_coefficient", "μ", "kinetic friction μ"},
     Named{"friction.static_coefficient", "μs", "static friction μs"},
     Named{"restitution.newton", "Newton", "Newton's coefficient (given)"},

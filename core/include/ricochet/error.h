@@ -22,7 +22,7 @@ enum class ErrorReason {
   kInvalidRequest = 1,       // INVALID_ARGUMENT: the message lists every violation.
   kOutputOverflow = 2,       // OUT_OF_RANGE: an exact result lies above the largest double; the message names it.
   kInadmissibleOutcome = 3,  // FAILED_PRECONDITION: the caller asked that an inadmissible outcome be an error.
-  kTooManyCalls = 4,         // RESOURCE_EXHAUSTED: the server has reached its limit on live calls; try again later.
+  kTooManyCalls = 4,         // RESOURCE_EXHAUSTED: too many live calls, or unread answers; try again later.
   kSweepTooLarge = 5,        // RESOURCE_EXHAUSTED: more points than the server allows in one call; ask for sub-ranges.
   kDraining = 6,             // UNAVAILABLE: the server is shutting down; ask another one, or try again later.
   kNotEnded = 7,             // OUT_OF_RANGE: an impact that the bounds need did not end within its step budget.

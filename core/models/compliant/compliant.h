@@ -7,13 +7,12 @@
 // Method: slides are algebra in the normal impulse, sticks two sinusoids in time, without a step size.
 // Accuracy: error_estimate, 1e-16 to 1e-14 for everyday contacts; infinite where the impact has no end (wedged).
 // Inputs or ratios of inputs beyond 1e100 either way may overflow: what is not finite then is not known.
-// Bad input: none gets here (core/scene/validate.h); IsAdmissible says which coefficients a contact can have.
+// Bad input: none gets here (core/scene/validate.h).
 // Model, regimes, derivations and limits: docs/theory/compliant.md.
 
 #ifndef RICOCHET_CORE_MODELS_COMPLIANT_COMPLIANT_H_
 #define RICOCHET_CORE_MODELS_COMPLIANT_COMPLIANT_H_
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -31,12 +30,6 @@ struct Problem {
 
 // Smaller coefficients of restitution are computed as 0, which no velocity can tell.
 inline constexpr double kLeastEnergetic = 0x1p-200;
-
-// Returns false where eta = 0 has no simple limit: mu |Wtn| >= Wnn, and the contact chatters as eta -> 0. The sign is
-// that of the exact difference.
-inline bool IsAdmissible(double wtn, double wnn, double mu, double energetic) {
-  return energetic >= kLeastEnergetic || std::fma(mu, std::fabs(wtn), -wnn) < 0.0;
-}
 
 // The state of the particle under friction.
 enum class FrictionState { kStick, kSlideForward, kSlideBackward };

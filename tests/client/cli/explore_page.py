@@ -285,6 +285,25 @@ class ExplorePageTest(unittest.TestCase):
         self.settle()
         self.assertIn("pendulum.a_m = -1: must be > 0", self.text("#leaves"))
         self.assertEqual(self.browser.script("return $('verdict').className"), "bad")
+        self.assertEqual(self.text("#motion") + self.text("#possible") + self.text("#simulator"), "")
+        for picture in ("course", "energy", "over"):
+            self.assertEqual(self.text(f"#{picture} .layer"), "There is no answer for this scene.")
+
+    def test_numbers_that_are_zero_have_controls(self):
+        self.browser.open("about:blank")
+        self.browser.open(f"{self.url}#at=x&pendulum.a_m=0.3&pendulum.inertia_kg_m2=1&pendulum.omega_minus_rad_s=-1"
+                          "&restitution.energetic=0.8")
+        self.settle()
+        for field in ("pendulum.b_m", "friction.kinetic_coefficient"):
+            self.assertEqual(self.browser.script(f"return inputs['{field}'].number.value"), "0")
+        self.assert_shows_the_answer_of_its_scene()
+
+    def test_every_field_has_the_unit_of_its_name(self):
+        for scene, field, unit in (("planar_body", "planar_body.offset_n_m", "[m]"),
+                                   ("planar_body", "planar_body.velocity_n_m_s", "[m/s]")):
+            self.open(scene)
+            shown = self.browser.script(f"return inputs['{field}'].number.parentElement.firstChild.lastChild.textContent")
+            self.assertEqual(shown.strip(), unit)
 
     def test_cost_is_measured_on_demand(self):
         self.open("pendulum")

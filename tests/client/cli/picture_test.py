@@ -252,6 +252,32 @@ class Curves(PictureTest):
         self.assertGreater(zeros, 1)
         self.assertIn(f"{zeros} points at or below 0 not shown", picture.texts)
 
+    def test_an_axis_of_hundreds_of_decades_ends(self):
+        inertia = ["sweep", *PENDULUM, "--axis", "pendulum.inertia_kg_m2=1e-160,1,1e160", "--column", "coefficients.newton"]
+        picture, _ = self.draw(*inertia)
+        labels = [label for _, label in picture.panels[0].x.ticks]
+        self.assertIn("1", labels)
+        self.assertIn("10¹⁵⁰", labels)
+        least = ["sweep", *PENDULUM, "--axis", "friction.kinetic_coefficient=5e-324", "--column", "coefficients.newton"]
+        picture, _ = self.draw(*least)
+        self.assertEqual(len(picture.panels[0].marks), 1)
+        result = run(*least, "--logx", "--plot", self.path("p.svg"), code=2)
+        self.assertIn("below 1e-300 on a logarithmic axis", result.stderr)
+
+    def test_a_line_follows_its_axis_whatever_the_order_of_the_values(self):
+        values = [0.2, 0.01, 0.25, 0.05, 0.1]
+        picture, table = self.draw("sweep", *PENDULUM, "--axis",
+                                   f"friction.kinetic_coefficient={','.join(map(str, values))}", "--column",
+                                   "coefficients.newton")
+        self.assertEqual([float(row["friction.kinetic_coefficient"]) for row in table], values)
+        for line in picture.panels[0].curves[0][2]:
+            self.assertEqual([x for x, _ in line], sorted(x for x, _ in line))
+
+    def test_the_title_names_the_axes_that_advance_together(self):
+        picture, _ = self.draw("sweep", *PENDULUM, "--zip", "--axis", "friction.kinetic_coefficient=0.1,0.2", "--axis",
+                               "pendulum.b_m=0.9,1", "--column", "coefficients.newton")
+        self.assertIn("Newton's coefficient of restitution over depth b, with kinetic friction μ", picture.texts)
+
 
 class Scales(PictureTest):
     """Near jamming Poisson's coefficient diverges: some values own any scale that shows them all."""
@@ -516,8 +542,9 @@ class Failures(PictureTest):
         self.assertIn("more than 49 curves", result.stderr)
 
     def test_options_of_a_picture_need_one(self):
+        sweep = ["sweep", *PENDULUM, "--axis", "friction.kinetic_coefficient=0.1,0.2", "--column", "coefficients.newton"]
         for option in [["--size", "640x400"], ["--title", "x"], ["--logy"]]:
-            result = run("solve", *PENDULUM, *option, code=2)
+            result = run(*sweep, *option, code=2)
             self.assertIn("need --plot FILE", result.stderr)
         for size in ["640", "640x", "10x400", "640x400x2", "99999x400"]:
             result = run("solve", *PENDULUM, "--plot", self.path("p.svg"), "--size", size, code=2)

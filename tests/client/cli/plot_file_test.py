@@ -164,7 +164,8 @@ class PlotFileTest(RicochetCase):
             "torn.csv": "".join(whole)[:-12], "word.csv": "".join(whole).replace("\n3,", "\n3,x", 1),
             "wide.csv": "".join(whole[:4]) + whole[4].rstrip("\n") + ",7\n", "other.csv": "time,force\n0,1\n",
             "foreign.csv": "index,my.axis,coefficients.newton\n0,1,1\n", "empty.csv": "", "head.csv": whole[0],
-            "regime.csv": "".join(whole).replace("REBOUND", "BOUND")}
+            "regime.csv": "".join(whole).replace("REBOUND", "BOUND"),
+            "nan.csv": "".join(whole).replace("\n3,0.015,", "\n3,nan,", 1)}
         for name, text in files.items():
             (WORK / name).write_text(text)
         for name in ("whole.npy", "whole.nc"):
@@ -183,6 +184,7 @@ class PlotFileTest(RicochetCase):
                 "torn.json": "is not a whole JSON document", "torn.jsonl": "line 101: must be a JSON object",
                 "scene.json": "has no columns", "word.json": f'point 3: {MU} = "x": must be a number or null',
                 "short.json": "point 3: has 5 cells: must have 6", "mixed.jsonl": "line 4: has the name fricton",
+                "nan.csv": f"{MU} = nan at point 3: must be finite to be drawn",
                 "picture.png": "is neither CSV nor JSON nor NPY nor NetCDF-4"}.items():
             with self.subTest(name=name):
                 code, out, error = ricochet("plot", name, "-o", "refused.svg")

@@ -88,10 +88,10 @@ TEST(MultiReductionTest, OneContactIsThatOfThePair) {
 }
 
 TEST(MultiReductionTest, DirectionsOfAContactAreARightHandedFrame) {
-  const Eigen::MatrixXd plane = DirectionsOf(MultiContactPoint{.normal = {0.0, 3.0}});
+  const Eigen::MatrixXd plane = ContactDirections(MultiContactPoint{.normal = {0.0, 3.0}});
   EXPECT_EQ(plane, Eigen::MatrixXd::Identity(2, 2));
   for (const std::vector<double>& normal : {std::vector<double>{0, 0, 2}, {1, 0, 0}, {-0.3, 0.5, 0.1}}) {
-    const Eigen::MatrixXd frame = DirectionsOf(MultiContactPoint{.normal = normal});
+    const Eigen::MatrixXd frame = ContactDirections(MultiContactPoint{.normal = normal});
     EXPECT_LE((frame * frame.transpose() - Eigen::MatrixXd::Identity(3, 3)).norm(), 1e-15);
     EXPECT_NEAR(frame.determinant(), 1.0, 1e-15);
   }

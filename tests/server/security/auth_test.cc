@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <memory>
@@ -120,6 +121,21 @@ TEST_F(AuthTest, ARefusalTellsTheLogWhyAndTheCallerNothing) {
   EXPECT_THAT(text_.str(), HasSubstr("caller=token:lab"));
   EXPECT_THAT(text_.str(), HasSubstr("reason=\"scope solve is missing\""));
   EXPECT_THAT(text_.str(), Not(HasSubstr("abc")));
+}
+
+TEST_F(AuthTest, TheLogHasTheBeginningOfALongUserAgent) {
+  Open(std::string("lab ") + kAbc + " all");
+  Check({.method = kSolve, .user_agent = std::string(8000, 'x')});
+  EXPECT_THAT(text_.str(), HasSubstr("user_agent=" + std::string(256, 'x') + "... "));
+}
+
+// Opening a pipe to which nobody writes would never end.
+TEST_F(AuthTest, TheFileOfTokensIsARegularFile) {
+  const std::string pipe = directory_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const auto opened = Auth::Open(pipe, log_);
+  EXPECT_EQ(opened.status().code(), StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(opened.status().message()), HasSubstr("pipe is not a regular file"));
 }
 
 }  // namespace

@@ -452,14 +452,6 @@ TEST(CompliantCornerTest, WithoutRestitutionTheImpactEndsAtRestAndTheSpringsEner
   EXPECT_EQ(impact.poisson, 0.0);
 }
 
-TEST(CompliantCornerTest, NoRestitutionIsRefusedFromWhereFrictionCanHoldTheBody) {
-  EXPECT_TRUE(IsAdmissible(0.5, 1.0, 1.9, 0.0));
-  EXPECT_FALSE(IsAdmissible(0.5, 1.0, 2.0, 0.0));
-  EXPECT_FALSE(IsAdmissible(-0.5, 1.0, 2.0, 0.0));
-  EXPECT_TRUE(IsAdmissible(-0.5, 1.0, 2.0, 1e-9));
-  EXPECT_FALSE(IsAdmissible(-0.5, 1.0, 2.0, 1e-300));
-}
-
 TEST(CompliantCornerTest, VanishingRestitutionComesToTheVelocitiesOfNone) {
   const Impact none = Solve(Contact(2.5, 0.5, 2.5, -0.1, 0.7, 0.0, 1.0));
   for (const double eta : {1e-30, 1e-59, 1e-61, 1e-300}) {
