@@ -102,7 +102,9 @@ std::vector<Tick> UnclampedTicks(const AxisRange& range, double length, double c
     if (last > first) {
       const double decade = length / (std::log10(range.upper) - std::log10(range.lower));
       int every = 1;
-      while (every * decade < RoomFor(PowerTicks(first, last, every), character, stacked)) every += every < 10 ? 1 : 10 - every % 10;
+      while (every * decade < RoomFor(PowerTicks(first, last, every), character, stacked)) {
+        every += every < 10 ? 1 : 10 - every % 10;
+      }
       return PowerTicks(first, last, every);
     }
     std::vector<Tick> ticks = ShortLogTicks(range);
