@@ -81,6 +81,10 @@ absl::Status PauseLimitReached(milliseconds limit) {
                    absl::StrCat("the caller sent no batch in ", limit.count(), " ms, the server's limit"));
 }
 
+absl::Status CallerRemoved() {
+  return absl::UnauthenticatedError("the caller of this call is no longer known; it ends here");
+}
+
 absl::Status Draining() {
   return Refusal(absl::StatusCode::kUnavailable, ErrorReason::kDraining,
                  "the server is shutting down; ask again, a sweep from the first point not received",

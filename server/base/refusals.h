@@ -39,6 +39,9 @@ absl::Status UnreadLimitReached(std::chrono::milliseconds limit);
 // CANCELLED: the caller of a stream of batches has sent nothing for `limit`, and cannot see more either.
 absl::Status PauseLimitReached(std::chrono::milliseconds limit);
 
+// UNAUTHENTICATED: the token or certificate of a call that runs is no longer among those that the server knows.
+absl::Status CallerRemoved();
+
 // UNAVAILABLE: the server drains.
 absl::Status Draining();
 

@@ -11,6 +11,7 @@
 #include "server/base/refusals.h"
 #include "server/base/request_id.h"
 #include "server/base/telemetry_names.h"
+#include "server/security/auth.h"
 #include "server/security/peer.h"
 
 namespace ricochet::server {
@@ -19,6 +20,9 @@ namespace {
 // Asking gRPC whether a call is cancelled can take 10 us or more, because it polls, so that it is asked only this often
 // while the call goes on.
 constexpr std::chrono::milliseconds kBetweenLooks(1);
+
+// A stream can run for an hour, and looks as often whether its caller still may call.
+constexpr std::chrono::seconds kBetweenChecks(1);
 
 // A write that takes longer than this is counted as a stall.
 constexpr std::chrono::seconds kStall(1);
@@ -63,6 +67,7 @@ Call::Call(const char* method, Kind kind, grpc::ServerContext& context, const Ca
       frame_(frame),
       peer_key_(PeerKey(context, frame.auth)),
       next_look_(start_ + kBetweenLooks),
+      next_check_(start_ + kBetweenChecks),
       place_(frame.live_calls.Enter(peer_key_, kind == Kind::kStream)),
       record_(RecordOf(method, context)) {
   // Trailing metadata, because a client repeats only a call that was refused without initial metadata.
@@ -102,7 +107,15 @@ CallOptions Call::options() const {
   return options;
 }
 
+absl::Status Call::CheckCaller() {
+  const auto now = std::chrono::steady_clock::now();
+  if (frame_.auth == nullptr || now < next_check_) return absl::OkStatus();
+  next_check_ = now + kBetweenChecks;
+  return frame_.auth->CallerOf(context_) == peer_key_ ? absl::OkStatus() : CallerRemoved();
+}
+
 absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work) {
+  if (absl::Status removed = CheckCaller(); !removed.ok()) return removed;
   const CallOptions limits = options();
   const double asked_s = elapsed_s();
   const ComputeRequest request = {

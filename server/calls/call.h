@@ -70,8 +70,8 @@ class Call {
   // client cancels or vanishes, and when the drain asks for it. This object must outlive them.
   CallOptions options() const;
 
-  // Does the work when it is this call's turn, and returns OK; or returns the error for which it was not done. `cost`
-  // is absent for a part of a stream.
+  // Does the work when it is this call's turn, and returns OK; or returns the error for which it was not done, one of
+  // which is that the caller is no longer known. `cost` is absent for a part of a stream.
   absl::Status Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work);
 
   // Waits for the next message of the caller by `read`, which returns false if there is none. Returns what `read` does.
@@ -98,6 +98,8 @@ class Call {
   const std::stop_token& drain() const;
   // True once the caller has cancelled the call or went away, but a millisecond late at most. One thread at a time.
   bool IsCancelled() const;
+  // Looks from time to time whether the caller is still the one who began the call. UNAUTHENTICATED if not.
+  absl::Status CheckCaller();
   absl::Status Explained(const absl::Status& status) const;
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -107,6 +109,7 @@ class Call {
   const std::string peer_key_;
   mutable std::chrono::steady_clock::time_point next_look_;
   mutable bool is_cancelled_ = false;
+  std::chrono::steady_clock::time_point next_check_;
   absl::StatusOr<LiveCalls::Permit> place_;
   CallMemory::Hold answer_;
   // The status UNKNOWN stays if a handler throws and never finishes; gRPC then answers the same.

@@ -426,11 +426,32 @@ struct StartedSweep {
                    .Sweep({.grid = {.scene = AnyScene(),
                                     .axes = {{"friction.kinetic_coefficient", Linspace{0.0, 0.4, 1'000'000'000}}}},
                            .columns = {"coefficients.newton"}})),
-        first(stream.begin()->status()) {}
+        at(stream.begin()),
+        first(at->status()) {}
+
+  // Reads on until the sweep fails or the time is over. Returns why it failed.
+  absl::Status ReadFor(std::chrono::seconds time) {
+    for (const auto end = std::chrono::steady_clock::now() + time;
+         at != stream.end() && std::chrono::steady_clock::now() < end; ++at) {
+      if (!at->ok()) return at->status();
+    }
+    return absl::OkStatus();
+  }
 
   SweepStream stream;
+  decltype(stream.begin()) at;
   absl::Status first;
 };
+
+TEST_F(Tokens, AStreamEndsWhenItsTokenIsRemoved) {
+  files_.Write("tokens", LineOf("lab", "secret", "sweep") + LineOf("shop", "other", "sweep"));
+  const ServerProcess server({"--tokens", files_ / "tokens"});
+  StartedSweep removed(server.address(), "secret");
+  StartedSweep kept(server.address(), "other");
+  files_.Write("tokens", LineOf("lab", "fresh", "sweep") + LineOf("shop", "other", "sweep"));
+  EXPECT_EQ(removed.ReadFor(std::chrono::seconds(20)).code(), StatusCode::kUnauthenticated);
+  EXPECT_TRUE(kept.ReadFor(std::chrono::seconds(2)).ok());
+}
 
 TEST_F(Tokens, CallersBehindOneAddressHavePlacesOfTheirOwn) {
   files_.Write("tokens", LineOf("lab", "secret", "sweep") + LineOf("shop", "other", "sweep"));
