@@ -105,6 +105,14 @@ PlanarReduction ReduceOne(const Linkage& linkage) {
   return reduction;
 }
 
+// The entries of a W of this rank are rounded, so that Rank() may see more. Then all eigenvalues of the scaled W are
+// lowered by the few eps that this takes.
+void LowerRankTo(int rank, SpatialReduction& reduction) {
+  for (double lowered = kEpsilon; SpatialDelassus{reduction.w}.Rank() > rank; lowered *= 2.0) {
+    for (const size_t diagonal : {0u, 3u, 5u}) reduction.w[diagonal] *= 1.0 - lowered;
+  }
+}
+
 // Finds the rank in space, where eigenvalues of the scaled W are compared with the noise.
 void SettleRankAndVelocity(const Eigen::Vector3d& sizes, SpatialReduction& reduction) {
   if (!IsFinite(reduction) || IsSurelyDefinite(reduction.w)) return;
@@ -114,10 +122,13 @@ void SettleRankAndVelocity(const Eigen::Vector3d& sizes, SpatialReduction& reduc
   const double noise = RankNoise(reduction);
   Eigen::Vector3d velocity(reduction.u0[0], reduction.u0[1], reduction.v0);
   Eigen::Matrix3d settled = matrix;
+  int rank = 3;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = solver.eigenvectors().col(i);
     const Eigen::Vector3d along = axis.cwiseProduct(scales.unaryExpr([](double x) { return x > 0.0 ? 1.0 / x : 0.0; }));
-    if (solver.eigenvalues()(i) > noise || along.isZero(0.0)) continue;  // A row of J that is 0 is exact.
+    if (solver.eigenvalues()(i) > noise) continue;
+    --rank;
+    if (along.isZero(0.0)) continue;  // A row of J that is 0 is exact.
     settled -= solver.eigenvalues()(i) * along * along.transpose();
     const double outside = axis.dot(scales.asDiagonal() * velocity);
     if (std::abs(outside) <= std::sqrt(noise) * (scales.asDiagonal() * sizes).stableNorm()) velocity -= outside * along;
@@ -125,6 +136,7 @@ void SettleRankAndVelocity(const Eigen::Vector3d& sizes, SpatialReduction& reduc
   reduction.w = {settled(0, 0), settled(0, 1), settled(0, 2), settled(1, 1), settled(1, 2), settled(2, 2)};
   reduction.u0 = {velocity(0), velocity(1)};
   reduction.v0 = velocity(2);
+  LowerRankTo(std::max(rank, 1), reduction);
 }
 
 void Settle(const std::vector<double>& sizes, PlanarReduction& reduction) {

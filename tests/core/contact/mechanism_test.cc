@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <variant>
 #include <vector>
 
+#include "core/contact/delassus.h"
 #include "core/contact/linkage_matrices.h"
 #include "core/contact/reduction.h"
 #include "ricochet/eigen.h"
@@ -206,6 +208,26 @@ TEST(MechanismTest, TwoJointsInSpaceHaveAWOfRankTwo) {
   const Outcome outcome = Solve(two);
   EXPECT_EQ(outcome.w_rank, 2);
   EXPECT_EQ(outcome.termination, Termination::kConverged);
+}
+
+// The rank of W = J M^-1 J^T is at most that of J, and so at most the number of coordinates, however W is rounded.
+TEST(MechanismTest, RankIsAtMostTheNumberOfCoordinatesThatMove) {
+  std::mt19937_64 random(20260801);
+  std::uniform_real_distribution<double> entry(-2.0, 2.0);
+  std::uniform_real_distribution<double> exponent(-6.0, 6.0);
+  for (int i = 0; i < 30000; ++i) {
+    const Eigen::Index n = 1 + i % 3;
+    const auto any = [&entry, &random] { return entry(random); };
+    const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, any);
+    const Eigen::MatrixXd mass = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n);
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::NullaryExpr(3, n, any);
+    if (i % 2 == 1) jacobian.row(i % 3) *= std::exp2(exponent(random));
+    Mechanism mechanism = *MechanismFrom(mass, jacobian, Eigen::VectorXd::NullaryExpr(n, any));
+    if (n == 3) mechanism.kept_coordinates = {i % 5 % 3};
+    const auto reduction = std::get<SpatialReduction>(Reduce(With(mechanism)));
+    ASSERT_LE(SpatialDelassus{reduction.w}.Rank(), std::min<Eigen::Index>(n, 2)) << i;
+    ASSERT_TRUE(VelocityIsInRange(reduction) || n == 3) << i;  // What is held moves as it likes.
+  }
 }
 
 TEST(MechanismTest, ParallelRowsOfTheJacobianAreAnAnswer) {
