@@ -109,13 +109,13 @@ std::optional<MeasuredVelocity> VelocityOf(const Problem& problem, size_t row, c
 
 void AuditRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
   const double sigmas = PossibleSigmas(problem.rows);
-  for (size_t row = 0; row < problem.rows; ++row) {
+  for (size_t row = 0; row < problem.rows && !model.Stops(); ++row) {
     const Scene& scene = model.SceneOf(row, best);
     const std::optional<MeasuredVelocity> velocity = VelocityOf(problem, row, scene);
     if (!velocity.has_value()) continue;
     const absl::StatusOr<AuditResponse> audit = AuditScene(
         {.scene = scene, .observed = velocity->observed, .velocity_uncertainty_m_s = sigmas * velocity->sigma},
-        [&model] { return model.is_stopped(); });
+        [&model] { return model.Stops(); });
     if (!audit.ok()) continue;
     for (int limit = 1; limit < kAuditLimitCount; ++limit) {
       if (audit->report[static_cast<AuditLimit>(limit)].verdict != Verdict::kBroken) continue;

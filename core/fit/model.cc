@@ -124,10 +124,9 @@ bool Model::Exact(absl::Span<const double> unknowns, const std::vector<bool>& is
   for (size_t i = 0; i < problem_.numbers.size(); ++i) {
     const Number& number = problem_.numbers[i];
     if (row != number.row) {
-      is_stopped_ = is_stopped_ || stopped_();
       std::optional<SceneContact> contact;
       const Scene& scene = SceneOf(number.row, unknowns);
-      if (is_stopped_ || !driven_.IsValid(contact)) return false;
+      if (Stops() || !driven_.IsValid(contact)) return false;
       if (!exact.has_value()) exact.emplace(scene, paths);
       exact->Compute(scene);
       row = number.row;

@@ -117,18 +117,19 @@ class Ray {
     return Adopt(distance, least);
   }
 
-  // Sees whether a place outside is inside if the other unknowns start where they fit best of many places. If so, it is
-  // the new place inside.
+  // Sees whether a place outside is inside if the other unknowns start where they ended inside last, which is nearer now
+  // than when the place was looked at, or where they fit best of many places. If so, it is the new place inside.
   bool GoesOn(const RayPoint& outside, RayPoint& inside) {
     if (!HasFree()) return false;
-    for (const std::vector<double>& start :
-         BestPlaces(StartAt(outside.distance, best_.at, 1.0), is_free_, kLookedAt, kTriedPlaces, model_)) {
+    const auto is_inside_from = [&](const std::vector<double>& start) {
       const Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
-      if (!IsInside(found)) continue;
-      inside = Adopt(outside.distance, found);
-      return true;
-    }
-    return false;
+      if (IsInside(found)) inside = Adopt(outside.distance, found);
+      return IsInside(found);
+    };
+    if (is_inside_from(StartAt(outside.distance, last_inside_, 1.0))) return true;
+    const std::vector<std::vector<double>> places =
+        BestPlaces(StartAt(outside.distance, best_.at, 1.0), is_free_, kLookedAt, kTriedPlaces, model_);
+    return std::any_of(places.begin(), places.end(), is_inside_from);
   }
 
   bool IsInside(const Minimum& found) const { return found.objective - best_.objective < rise_; }

@@ -110,6 +110,36 @@ TEST(FitTest, AProductIsNotSeenByItsFactors) {
   EXPECT_TRUE(HasNote(response, "only a combination with other unknowns"));
 }
 
+// Rows that slide tell the ratio (W_tn - mu W_tt) / (W_nn - mu W_tn) and the coefficient, two combinations of three
+// unknowns: for each W_tn below sqrt(W_tt W_nn) there is a friction that fits as well.
+TEST(FitTest, AProfileFollowsItsValleyToTheEnd) {
+  const double e = 0.6, w_tt = 2.5, ratio = (0.4 - 0.25 * 3.0) / (1.0 - 0.25 * 0.4);
+  FitRequest request = {.scene = {.system = PlanarContact{.w_tt_per_kg = w_tt, .w_tn_per_kg = 0.3, .w_nn_per_kg = 1.0},
+                                  .friction = {.kinetic_coefficient = 0.2},
+                                  .restitution = PoissonCoefficient{0.5}},
+                        .unknowns = {{.path = "friction.kinetic_coefficient", .start = 0.2},
+                                     {.path = "planar_contact.w_tn_per_kg", .start = 0.3},
+                                     {.path = "restitution.poisson", .start = 0.5}},
+                        .inputs = {{"planar_contact.tangential_m_s", {}}, {"planar_contact.normal_m_s", {}}},
+                        .measured = {{"contact_velocity_after.tangential_m_s[0]", {}, {0.02}},
+                                     {"contact_velocity_after.normal_m_s", {}, {0.02}}}};
+  for (int row = 0; row < 10; ++row) {
+    const double u = 1.5 + 2.5 * row / 9.0, v = -2.0 + 1.5 * row / 9.0;
+    request.inputs[0].values.push_back(u);
+    request.inputs[1].values.push_back(v);
+    request.measured[0].values.push_back(u - ratio * (1.0 + e) * v);
+    request.measured[1].values.push_back(-e * v);
+  }
+  const FitResponse response = *Fit(request, Never);
+  const FitEstimate& w_tn = response.unknowns[1];
+  EXPECT_FALSE(w_tn.seen);
+  EXPECT_EQ(w_tn.high.kind, FitEndKind::kNotSeen);
+  EXPECT_GT(w_tn.profile.back().value, 0.999 * std::sqrt(w_tt));
+  for (const FitProfilePoint& point : w_tn.profile) {
+    EXPECT_TRUE(point.value < 0.0 || point.rise < 1e-5) << point.value << " rises by " << point.rise;
+  }
+}
+
 TEST(FitTest, NamesAnOutlierAndRefusesTheData) {
   FitRequest request = Noiseless(ContactCase());
   request.measured[1].values[3] += 0.2;
