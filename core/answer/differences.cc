@@ -23,6 +23,8 @@ constexpr double kBeside = 0x1p-44;
 constexpr double kJump = 0x1p-24;
 // The error that is claimed over the estimate. Of many estimates the least is taken, which may be so by chance.
 constexpr double kMargin = 16.0;
+// Two estimates that differ by this many errors contradict each other.
+constexpr double kContradiction = 4.0;
 // The steps over the size of the number, as negative powers of two.
 constexpr int kFirstStep = 4;
 constexpr int kLastStep = 30;
@@ -79,9 +81,11 @@ Estimate EstimateOf(const std::array<double, kNeighbours>& changes, const Weight
   return {.rate = sum[0] / step, .error = (cut_off + rounding) / std::fabs(step), .is_cut_off = cut_off > rounding};
 }
 
-// Keeps the better estimate. Returns true if it is the new one.
+// Keeps the better estimate. Returns true if it is the new one. An estimate over a shorter step is also better if it
+// contradicts the one so far, which then has stepped over a bend.
 bool Improve(Estimate& best, const Estimate& next) {
-  if (!(next.error < best.error) || !std::isfinite(next.rate)) return false;
+  const bool contradicts = std::fabs(next.rate - best.rate) > kContradiction * (best.error + next.error);
+  if (!(next.error < best.error || contradicts) || !std::isfinite(next.rate)) return false;
   best = next;
   return true;
 }
