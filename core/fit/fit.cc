@@ -133,7 +133,8 @@ class Fitter {
     }
     weights.resize(problem_.numbers.size(), 1.0);
     predicted.resize(problem_.numbers.size(), 0.0);
-    information_ = InformationOf(problem_, best_.at, predicted, derivatives, weights);
+    information_ =
+        InformationOf(problem_, best_.at, predicted, derivatives, weights, [this] { return model_.Stops(); });
   }
 
   // The distance at which an interval or a region should end.

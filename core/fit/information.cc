@@ -17,6 +17,9 @@ constexpr double kNothing = 1e-6;
 // An unknown with a smaller part of a combination that is not seen is seen by itself.
 constexpr double kLeastPart = 1e-3;
 
+// So many rows of derivatives are decomposed before a stop is asked for.
+constexpr Eigen::Index kBlock = 4096;
+
 // The share of each row in the square of a column of J.
 std::vector<double> SharesOf(const Problem& problem, const Eigen::VectorXd& column) {
   std::vector<double> shares(problem.rows, 0.0);
@@ -28,15 +31,31 @@ std::vector<double> SharesOf(const Problem& problem, const Eigen::VectorXd& colu
   return shares;
 }
 
+// A matrix of few rows with the singular values of `slopes` and their right vectors: the triangular factor of block
+// after block of its rows with the factor before. A decomposition of all rows at once could not be stopped.
+Eigen::MatrixXd FewRowsOf(const Eigen::MatrixXd& slopes, absl::FunctionRef<bool()> stopped) {
+  Eigen::MatrixXd factor = slopes.topRows(std::min(kBlock, slopes.rows()));
+  for (Eigen::Index row = factor.rows(); row < slopes.rows() && !stopped(); row += kBlock) {
+    const Eigen::Index count = std::min(kBlock, slopes.rows() - row);
+    Eigen::MatrixXd stacked(factor.rows() + count, slopes.cols());
+    stacked << factor, slopes.middleRows(row, count);
+    factor =
+        Eigen::HouseholderQR<Eigen::MatrixXd>(stacked).matrixQR().topRows(slopes.cols()).triangularView<Eigen::Upper>();
+  }
+  return factor;
+}
+
 }  // namespace
 
 Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& predicted,
-                          const std::vector<double>& derivatives, const std::vector<double>& weights) {
+                          const std::vector<double>& derivatives, const std::vector<double>& weights,
+                          absl::FunctionRef<bool()> stopped) {
   const auto count = static_cast<Eigen::Index>(problem.numbers.size());
   const auto size = static_cast<Eigen::Index>(problem.unknowns());
   Eigen::MatrixXd slopes(count, size);
   double numbers = 0.0;  // The length of the numbers in sigmas.
   for (Eigen::Index i = 0; i < count; ++i) {
+    if (i % kBlock == kBlock - 1 && stopped()) return {};
     const auto number = static_cast<size_t>(i);
     const auto& [row, column, value, sigma] = problem.numbers[number];
     numbers = Hypot(numbers, std::max(std::fabs(predicted[number]), std::fabs(value)) / sigma);
@@ -56,7 +75,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
     information.is_seen[unknown] = !is_nothing;
     slopes.col(k) *= is_nothing ? 0.0 : 1.0 / lengths[k];
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(slopes, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(FewRowsOf(slopes, stopped), Eigen::ComputeThinU | Eigen::ComputeThinV);
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index j = 0; j < parts.singularValues().size(); ++j) {
     const Eigen::VectorXd part = parts.matrixV().col(j);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "core/fit/problem.h"
 
 namespace ricochet::fit {
@@ -25,9 +26,10 @@ struct Information {
 };
 
 // `derivatives` are those of the predicted numbers at the unknowns `at` (core/fit/model.h), `weights` those of the
-// squared residuals.
+// squared residuals. Once `stopped` returns true, what is returned means nothing.
 Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& predicted,
-                          const std::vector<double>& derivatives, const std::vector<double>& weights);
+                          const std::vector<double>& derivatives, const std::vector<double>& weights,
+                          absl::FunctionRef<bool()> stopped);
 
 // The probability that chi-squared with so many degrees of freedom, > 0, exceeds a value, exact to some 1e-12 of 1.
 double ChiSquaredBeyond(double value, double degrees_of_freedom);

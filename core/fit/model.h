@@ -27,7 +27,7 @@ class Model {
   const Problem& problem() const { return problem_; }
   // True once `stopped` has been; the functions below then return false.
   bool is_stopped() const { return is_stopped_; }
-  // Asks `stopped`, for work that does not solve rows.
+  // Asks `stopped`, for work between the functions below that takes long.
   bool Stops() { return is_stopped_ = is_stopped_ || stopped_(); }
 
   // Sets the predicted numbers and returns true if all exist. The rows of Bad and regimes() are those of the last call.

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/engine/parallel_batch.h"
 #include "core/fit/information.h"
+#include "core/fit/judgement.h"
 #include "ricochet/solver.h"
 #include "tests/core/fit/fit_cases.h"
 
@@ -411,6 +413,47 @@ TEST(FitTest, AStopEndsIt) {
   int questions = 0;
   const auto stop = [&questions] { return ++questions > 20; };
   EXPECT_EQ(Fit(Noiseless(CompliantCase()), stop).status().code(), absl::StatusCode::kCancelled);
+}
+
+// All questions here come from the audits themselves, because the rows are solved without one.
+TEST(FitTest, AStopEndsTheAuditsOfTheRows) {
+  const Problem problem = *CheckFit(Noiseless(ContactCase()));
+  for (const int last : {3, 1000}) {
+    int questions = 0;
+    const auto stop = [&questions, last] { return ++questions > last; };
+    ParallelBatch rows(problem.batch, nullptr);
+    Model model(
+        problem, [&rows](const BatchRows& all, absl::FunctionRef<bool()>) { return rows.Solve(all, Never); }, stop);
+    FitResponse response = {.unknowns = std::vector<FitEstimate>(2), .starts = {{.converged = true}}};
+    Judge(problem, ContactCase().true_values, Information{}, model, response);
+    EXPECT_EQ(model.is_stopped(), last == 3);
+    EXPECT_GE(questions, last == 3 ? 4 : static_cast<int>(problem.rows));
+  }
+}
+
+// The covariance of straight lines is that of their normal equations, whose sums are known in closed form.
+TEST(FitTest, ManyRowsOfInformationAskForAStopAndTellTheSame) {
+  Problem problem = *CheckFit(Noiseless(ContactCase()));
+  constexpr size_t kCount = 20000;
+  problem.rows = kCount;
+  problem.numbers.clear();
+  std::vector<double> derivatives;
+  for (size_t i = 0; i < kCount; ++i) {
+    problem.numbers.push_back({.row = i, .value = 1.0, .sigma = 0.5});
+    derivatives.insert(derivatives.end(), {1.0, static_cast<double>(i + 1) / kCount});
+  }
+  const std::vector<double> ones(kCount, 1.0);
+  int questions = 0;
+  const auto count = [&questions] { return ++questions < 0; };
+  const Information information = InformationOf(problem, {0.5, 0.5}, ones, derivatives, ones, count);
+  EXPECT_GE(questions, 8);
+  constexpr double n = kCount;
+  const double linear = (n + 1.0) / 2.0, square = (n + 1.0) * (2.0 * n + 1.0) / (6.0 * n);
+  const double determinant = n * square - linear * linear;
+  EXPECT_NEAR(information.covariance[0], 0.25 * square / determinant, 1e-13 * square / determinant);
+  EXPECT_NEAR(information.covariance[1], -0.25 * linear / determinant, 1e-13 * linear / determinant);
+  EXPECT_NEAR(information.covariance[3], 0.25 * n / determinant, 1e-13 * n / determinant);
+  EXPECT_EQ(information.degrees_of_freedom, static_cast<int64_t>(kCount) - 2);
 }
 
 TEST(FitTest, ADeadlineEndsIt) {
