@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <compare>
 #include <cstddef>
 #include <limits>
+#include <set>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
@@ -63,11 +65,38 @@ int64_t Shown(const Points& points, const Axes& axes) {
   return std::count_if(points.begin(), points.end(), [&](const auto& point) { return axes.Shows(point); });
 }
 
+// Adds the first, the lowest, the highest and the last of some points.
+void AddExtremes(Points::const_iterator first, Points::const_iterator end, Points& points) {
+  const auto [lowest, highest] =
+      std::minmax_element(first, end, [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::set<Points::const_iterator> kept = {first, lowest, highest, end - 1};
+  for (const auto& point : kept) points.push_back(*point);
+}
+
+// Returns what a picture needs of a line that has several points in each pixel: of those that follow each other within
+// a ten thousandth of the axis, the extremes.
+Points Thinned(const Points& points, const Axes& axes) {
+  constexpr size_t kFew = 20'000;
+  constexpr double kPlaces = 10'000.0;
+  if (points.size() <= kFew) return points;
+  const auto place = [&axes](const auto& point) {
+    return axes.Shows(point) ? std::floor(kPlaces * axes.Across(point.first)) : kNan;
+  };
+  Points thinned;
+  for (auto first = points.begin(); first != points.end();) {
+    const double here = place(*first);
+    const auto end = std::find_if(first + 1, points.end(), [&](const auto& point) { return place(point) != here; });
+    AddExtremes(first, end, thinned);
+    first = end;
+  }
+  return thinned;
+}
+
 // Appends a block of data; an empty line ends a line of the picture.
-void AppendData(const std::string& name, const Points& points, const Axes& axes, std::string& script) {
+void AppendData(const std::string& name, const Points& all, const Axes& axes, std::string& script) {
   absl::StrAppend(&script, "$", name, " << EOD\n");
   bool any = false;
-  for (const auto& point : points) {
+  for (const auto& point : Thinned(all, axes)) {
     any = any || axes.Shows(point);
     absl::StrAppend(&script, axes.Shows(point)
                                  ? absl::StrCat(ShortestDecimal(point.first), " ", ShortestDecimal(point.second), "\n")

@@ -31,10 +31,14 @@ struct Axes {
     return std::isfinite(point.first) && std::isfinite(point.second) && !(log_x && point.first <= 0.0) &&
            !(log_y && point.second <= 0.0);
   }
-  // Returns where a shown value is on the axis upwards: 0 at its lower end, 1 at its upper end.
-  double Height(double value) const {
-    if (!log_y) return (value - y.lower) / (y.upper - y.lower);
-    return (std::log(value) - std::log(y.lower)) / (std::log(y.upper) - std::log(y.lower));
+  // Return where a shown value is on its axis: 0 at the lower end, 1 at the upper end.
+  double Across(double value) const { return PlaceOn(x, log_x, value); }
+  double Height(double value) const { return PlaceOn(y, log_y, value); }
+
+ private:
+  static double PlaceOn(const AxisRange& range, bool log, double value) {
+    if (!log) return (value - range.lower) / (range.upper - range.lower);
+    return (std::log(value) - std::log(range.lower)) / (std::log(range.upper) - std::log(range.lower));
   }
 };
 

@@ -273,6 +273,16 @@ class Curves(PictureTest):
         for line in picture.panels[0].curves[0][2]:
             self.assertEqual([x for x, _ in line], sorted(x for x, _ in line))
 
+    def test_a_line_of_many_points_has_its_extremes_and_no_more_than_can_be_seen(self):
+        picture, table = self.draw("sweep", *PENDULUM, "--axis", "friction.kinetic_coefficient=lin:0:0.4:100001",
+                                   "--column", "coefficients.poisson")
+        self.assertLess(os.path.getsize(self.path("picture.svg")), 1 << 20)
+        panel, values = picture.panels[0], [float(row["coefficients.poisson"]) for row in table]
+        drawn = [panel.y.value(y) for line in panel.curves[0][2] for _, y in line]
+        reach = abs(panel.y.value(1) - panel.y.value(0))
+        self.assertAlmostEqual(max(drawn), max(values), delta=reach)
+        self.assertAlmostEqual(min(drawn), min(values), delta=reach)
+
     def test_the_title_names_the_axes_that_advance_together(self):
         picture, _ = self.draw("sweep", *PENDULUM, "--zip", "--axis", "friction.kinetic_coefficient=0.1,0.2", "--axis",
                                "pendulum.b_m=0.9,1", "--column", "coefficients.newton")
