@@ -127,7 +127,7 @@ TEST_F(Cli, InfoTellsTheLimitsOfAServer) {
   EXPECT_THAT(text.out, testing::ContainsRegex("  max_links +12  Links of a linkage, or coordinates of a mechanism\n"));
   EXPECT_THAT(text.out, testing::ContainsRegex("  max_unary_time_ms +1500  The longest that a unary call may take\n"));
   const CliResult csv = Run({"info", "--server", server.address(), "--format", "csv"});
-  EXPECT_THAT(csv.out, StartsWith("name,value\nversion," + ThisEngine().version + "\n"));
+  EXPECT_THAT(csv.out, StartsWith("name,value\nversion,\"" + ThisEngine().version + "\"\n"));
   EXPECT_THAT(csv.out, HasSubstr("\nmax_links,12\n"));
   EXPECT_THAT(csv.out, HasSubstr("\nmax_unary_time_ms,1500\n"));
   v1::InfoResponse message;
