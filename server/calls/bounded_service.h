@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "absl/status/statusor.h"
 #include "ricochet/limits.h"
@@ -74,7 +75,7 @@ class BoundedBatches {
   using Stream = grpc::ServerReaderWriter<v1::SolveBatchResponse, grpc::ByteBuffer>;
 
   // The stream must outlive this object.
-  BoundedBatches(Stream& stream, const RequestReader& reader) : stream_(stream), reader_(reader) {}
+  BoundedBatches(Stream& stream, RequestReader reader) : stream_(stream), reader_(std::move(reader)) {}
 
   // Waits for the next request. Returns false if the caller sends no more or the call has ended.
   bool Receive() { return stream_.Read(&received_); }

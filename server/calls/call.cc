@@ -143,8 +143,9 @@ absl::StatusOr<bool> Call::Receive(absl::FunctionRef<bool()> read) {
 absl::Status Call::HoldAnswer(int64_t bytes) {
   answer_ = {};
   absl::StatusOr<CallMemory::Hold> taken = frame_.memory.Take([this] { return peer_key_; }, bytes);
-  if (taken.ok()) answer_ = *std::move(taken);
-  return taken.status();
+  if (!taken.ok()) return taken.status();
+  answer_ = *std::move(taken);
+  return absl::OkStatus();
 }
 
 absl::Status Call::Send(absl::FunctionRef<bool()> write) {

@@ -73,8 +73,8 @@ absl::Status Send(const Response& response, grpc::ServerWriter<Response>& writer
 
 }  // namespace
 
-ImpactService::ImpactService(const Solver& solver, const CallFrame& frame, ServerLimits limits)
-    : solver_(solver), frame_(frame), limits_(std::move(limits)) {}
+ImpactService::ImpactService(const Solver& solver, CallFrame frame, ServerLimits limits)
+    : solver_(solver), frame_(std::move(frame)), limits_(limits) {}
 
 template <typename Request, typename Response, typename Method>
 grpc::Status ImpactService::Answer(const char* name, Method method, grpc::ServerContext& context,

@@ -19,7 +19,7 @@ namespace ricochet::server {
 class ImpactService final : public v1::ImpactService::Service {
  public:
   // `solver` and all that `frame` refers to must outlive the service. Info answers `limits`.
-  ImpactService(const Solver& solver, const CallFrame& frame, ServerLimits limits);
+  ImpactService(const Solver& solver, CallFrame frame, ServerLimits limits);
 
   grpc::Status Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
                      v1::SolveResponse* response) override;
