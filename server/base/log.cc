@@ -157,7 +157,7 @@ void Log::WriteForGrpc(LogLevel level, const std::string& event, const std::vect
 bool Log::Flush(std::chrono::milliseconds time) const { return writer_ == nullptr || writer_->Flush(time); }
 
 absl::Status Log::Reopen() const {
-  const absl::Status status = writer_ == nullptr ? absl::OkStatus() : writer_->Reopen();
+  absl::Status status = writer_ == nullptr ? absl::OkStatus() : writer_->Reopen();
   if (!status.ok()) Write(LogLevel::kError, "log not reopened", {{"message", std::string(status.message())}});
   return status;
 }

@@ -22,7 +22,7 @@ constexpr size_t kMostTokenBytes = 512;
 
 constexpr char kBearer[] = "Bearer ";
 
-std::string Text(grpc::string_ref text) { return {text.data(), text.size()}; }
+std::string Text(const grpc::string_ref& text) { return {text.data(), text.size()}; }
 
 }  // namespace
 

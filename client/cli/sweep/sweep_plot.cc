@@ -143,15 +143,26 @@ std::string TitleOf(const SweepTable& table, const Group& group, size_t column, 
   return absl::StrJoin(parts, ", ");
 }
 
+// True if the group lacks points between those that it has: a file can have rows of a sweep only.
+bool LacksPoints(const SweepTable& table, const Group& group) {
+  if (table.index.empty()) return false;
+  const auto is_before = [&table](size_t a, size_t b) { return table.index[a] < table.index[b]; };
+  const auto [first, last] = std::minmax_element(group.points.begin(), group.points.end(), is_before);
+  return table.index[*last] - table.index[*first] + 1.0 != static_cast<double>(group.points.size());
+}
+
 // Adds to `missing` where the curve has no value.
 Curve CurveOf(const SweepTable& table, const Group& group, size_t column, std::set<double>& missing) {
   Curve curve;
   const std::vector<double>& values = table.values[column];
+  const bool lacks_points = LacksPoints(table, group);
   for (size_t k = 0; k < group.points.size(); ++k) {
     const size_t i = group.points[k];
     const double x = table.at.back()[i];
-    const bool changes = k > 0 && !table.regimes.empty() && table.regimes[group.points[k - 1]] != table.regimes[i];
-    if (changes) curve.points.emplace_back(kGap, kGap);
+    const size_t before = k > 0 ? group.points[k - 1] : i;
+    const bool changes = !table.regimes.empty() && table.regimes[before] != table.regimes[i];
+    const bool jumps = lacks_points && std::abs(table.index[i] - table.index[before]) > 1.0;
+    if (changes || jumps) curve.points.emplace_back(kGap, kGap);
     curve.points.emplace_back(x, values[i]);
     if (!std::isfinite(values[i])) missing.insert(x);
   }

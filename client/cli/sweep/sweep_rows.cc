@@ -89,16 +89,17 @@ absl::StatusOr<SweepRows> SweepRows::Create(const std::vector<std::string>& name
     const size_t column = PlaceOf(name, table.columns);
     const bool is_axis = axis < table.axes.size();
     const bool is_number = is_axis || column < table.columns.size();
-    rows.kinds_.push_back(name == "regime"   ? Kind::kRegime
-                          : name == "status" ? Kind::kStatus
-                          : is_number        ? Kind::kNumber
-                                             : Kind::kSkipped);
+    rows.kinds_.push_back(name == "regime"               ? Kind::kRegime
+                          : name == "status"             ? Kind::kStatus
+                          : is_number || name == "index" ? Kind::kNumber
+                                                         : Kind::kSkipped);
     rows.places_.push_back(is_axis ? axis : table.axes.size() + column);
   }
   return rows;
 }
 
 void SweepRows::AddNumber(size_t cell, double value) {
+  if (cell == 0) return table_.index.push_back(value);
   const size_t place = places_[cell];
   const size_t axes = table_.axes.size();
   (place < axes ? table_.at[place] : table_.values[place - axes]).push_back(value);

@@ -283,6 +283,20 @@ class Curves(PictureTest):
         self.assertAlmostEqual(max(drawn), max(values), delta=reach)
         self.assertAlmostEqual(min(drawn), min(values), delta=reach)
 
+    def test_no_line_crosses_rows_that_a_file_lacks(self):
+        for ending in ("csv", "jsonl"):
+            rows = run("sweep", *PENDULUM, "--axis", "friction.kinetic_coefficient=lin:0.01:0.1:10", "--column",
+                       "coefficients.newton", "--format", ending).stdout.splitlines(keepends=True)
+            lines = []
+            for name, kept in (("whole", rows), ("part", rows[:4] + rows[6:])):
+                file = self.path(f"{name}.{ending}")
+                with open(file, "w", encoding="utf-8") as written:
+                    written.writelines(kept)
+                run("plot", file, "-o", self.path("picture.svg"))
+                with open(self.path("picture.svg"), encoding="utf-8") as drawn:
+                    lines.append(len(Picture(drawn.read()).panels[0].curves[0][2]))
+            self.assertEqual(lines, [1, 2], ending)
+
     def test_the_title_names_the_axes_that_advance_together(self):
         picture, _ = self.draw("sweep", *PENDULUM, "--zip", "--axis", "friction.kinetic_coefficient=0.1,0.2", "--axis",
                                "pendulum.b_m=0.9,1", "--column", "coefficients.newton")
