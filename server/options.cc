@@ -162,7 +162,9 @@ std::vector<Setting> NetworkSettings() {
          return ReadInteger(text, int64_t{1} << 20, to.transport_memory_mib);
        }},
       {"call-memory", "MIB",
-       "Memory for the requests and answers of all calls together, of which one client can have three quarters [512]",
+       "Memory for the requests and answers of all calls together, of which one client can have three quarters; at "
+       "least "
+       "eight times max-request-bytes [512, or that]",
        [](const std::string& text, Options& to) { return ReadInteger(text, int64_t{1} << 20, to.call_memory_mib); }},
       {"handshake-timeout", "SECONDS", "Close a connection that does not begin HTTP/2, with TLS, in this time [10]",
        [](const std::string& text, Options& to) { return ReadTimeLimit(text, to.transport_times.handshake); }},
@@ -379,6 +381,11 @@ void CheckTogether(const Options& options, std::vector<std::string>& violations)
         Violated("port-file", options.port_file, "needs HOST:PORT in --listen; a Unix socket has no port"));
   }
   CheckLimitsFit(options, violations);
+  const int64_t memory = LeastCallMemoryMib(options.limits);
+  if (options.call_memory_mib < memory) {
+    violations.push_back(Violated("call-memory", absl::StrCat(options.call_memory_mib),
+                                  absl::StrCat("must be >= ", memory, ", eight times --max-request-bytes")));
+  }
   const int threads = options.live_calls.calls + Options::kSpareThreads;
   if (options.max_threads < threads) {
     violations.push_back(
@@ -500,6 +507,11 @@ CommandLine DeclareOptions() {
 
 }  // namespace
 
+int64_t LeastCallMemoryMib(const Limits& limits) {
+  constexpr int64_t kMiB = int64_t{1} << 20;
+  return std::max<int64_t>(8, (8 * limits.max_request_bytes + kMiB - 1) / kMiB);
+}
+
 std::unique_ptr<CLI::App> MakeCommandLine() { return DeclareOptions().app; }
 
 absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const char* const* argv) {
@@ -523,6 +535,9 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   or_default("--max-connections-per-peer", std::min(options.connections.per_peer, options.connections.in_all),
              options.connections.per_peer);
   or_default("--max-threads", calls.calls + Options::kSpareThreads, options.max_threads);
+  if (app.count("--call-memory") == 0) {
+    options.call_memory_mib = std::max(options.call_memory_mib, LeastCallMemoryMib(options.limits));
+  }
   CheckTogether(options, violations);
   if (!violations.empty()) return absl::InvalidArgumentError(absl::StrJoin(violations, "\n"));
   return parsed;

@@ -44,8 +44,9 @@ struct Options {
 
   ConnectionLimits connections;        // Each limit from 1 to 1,000,000.
   int64_t transport_memory_mib = 256;  // For gRPC's buffers of all connections together; 1 to 1,048,576.
-  int64_t call_memory_mib = 512;       // For the requests and answers of all calls together; 1 to 1,048,576.
-  TransportTimes transport_times;      // Each 1 ms to 1 h.
+  // For the requests and answers of all calls together; LeastCallMemoryMib(limits) to 1,048,576.
+  int64_t call_memory_mib = 512;
+  TransportTimes transport_times;  // Each 1 ms to 1 h.
 
   // Threads that wait for calls or tell callers that they are refused. With this many spare threads an overload is
   // refused by the limit of live calls, which sends a retry delay, and not by gRPC.
@@ -69,6 +70,10 @@ struct Options {
 
   friend bool operator==(const Options&, const Options&) = default;
 };
+
+// Eight times the largest request, and at least 8 MiB: the share of one client then has room for a request with its
+// answer, whatever the limits are.
+int64_t LeastCallMemoryMib(const Limits& limits);
 
 // A text that the user asked for instead of a server: --help, --version.
 struct Notice {

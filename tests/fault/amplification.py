@@ -223,7 +223,7 @@ for row_name, row_make in ROWS.items():
     register(row_name, row_make)
 
 
-CALL_MEMORY_MIB = 64
+CALL_MEMORY_MIB = 128
 COMPUTES_MIB = 96  # For what computes, and for the messages of 1 MiB that gRPC itself holds.
 
 

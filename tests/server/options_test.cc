@@ -135,11 +135,11 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                                       }},
                              GoodCase{"Connections",
                                       {.flags = {"--max-connections", "9", "--max-connections-per-peer", "8",
-                                                 "--transport-memory", "7", "--call-memory", "6"}},
+                                                 "--transport-memory", "7", "--call-memory", "160"}},
                                       [](Options& o) {
                                         o.connections = {.in_all = 9, .per_peer = 8};
                                         o.transport_memory_mib = 7;
-                                        o.call_memory_mib = 6;
+                                        o.call_memory_mib = 160;
                                       }},
                              GoodCase{"PortFile",
                                       {.flags = {"--port-file", "/run/a b"}},
@@ -410,11 +410,22 @@ std::map<std::string, std::pair<std::string, std::string>> Ranges() {
   for (const char* const name : {"drain-grace", "drain-timeout"}) ranges[name] = {"0", "3600"};
   ranges["max-threads"] = {"1152", "1048576"};
   ranges["compute-threads"] = {"1", "1024"};
-  for (const char* const name : {"transport-memory", "call-memory"}) ranges[name] = {"1", "1048576"};
+  ranges["transport-memory"] = {"1", "1048576"};
+  ranges["call-memory"] = {"128", "1048576"};
   for (const NamedLimit& limit : kLimits) {
     ranges[absl::StrReplaceAll(limit.name, {{"_", "-"}})] = {"1", std::to_string(limit.most)};
   }
   return ranges;
+}
+
+TEST(Options, TheMemoryOfCallsHoldsEightOfTheLargestRequests) {
+  const auto large = Parse("", {.flags = {"--max-request-bytes", "268435456"}});
+  ASSERT_TRUE(large.ok()) << large.status();
+  EXPECT_EQ(std::get<Options>(*large).call_memory_mib, 2048);
+  const auto small = Parse("", {.flags = {"--max-request-bytes", "1048576", "--call-memory", "8"}});
+  EXPECT_TRUE(small.ok()) << small.status();
+  const auto wrong = Parse("", {.flags = {"--max-request-bytes", "1048577", "--call-memory", "8"}});
+  EXPECT_EQ(wrong.status().message(), "--call-memory = 8: must be >= 9, eight times --max-request-bytes");
 }
 
 TEST(Options, EveryNumberIsTakenFromItsLeastToItsMostAndNotBeyond) {
