@@ -441,12 +441,12 @@ TEST(Options, EveryNumberIsTakenFromItsLeastToItsMostAndNotBeyond) {
     const std::string below = is_time ? (least == "0" ? "-0.001" : "0.0004") : std::to_string(std::stoll(least) - 1);
     const std::string above = is_time ? "3600.001" : std::to_string(std::stoll(most) + 1);
     const auto is_taken = [&name](const std::string& value) {
-      std::vector<std::string> flags = {"--" + name + "=" + value};
+      std::vector<std::string> flags = {absl::StrCat("--", name, "=", value)};
       // A part may be as large as the whole.
-      if (name == "max-streams-per-peer") flags.push_back("--max-streams=65536");
+      if (name == "max-streams-per-peer") flags.emplace_back("--max-streams=65536");
       if (name == "max-live-calls-per-peer" || name.starts_with("max-streams"))
-        flags.push_back("--max-live-calls=65536");
-      if (name == "max-connections-per-peer") flags.push_back("--max-connections=1000000");
+        flags.emplace_back("--max-live-calls=65536");
+      if (name == "max-connections-per-peer") flags.emplace_back("--max-connections=1000000");
       return Parse("", {.flags = flags}).ok();
     };
     for (const std::string& value : {least, most}) EXPECT_TRUE(is_taken(value)) << name << " " << value;
