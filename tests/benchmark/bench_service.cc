@@ -228,7 +228,7 @@ void RunAll() {
   const auto answer_batches = [&service](grpc::ServerContext& context, server::BoundedBatches& batches) {
     return service.AnswerBatches(context, batches);
   };
-  server::BoundedService bounded(service, answer_batches, Limits(), made.unread);
+  server::BoundedService bounded(service, answer_batches, Limits(), {.unread = made.unread, .memory = made.memory});
   Loopback ricochet(&bounded);
   Loopback echo(&nothing);
   std::printf("ricochet service on loopback, engine %s\n", ThisEngine().fingerprint.c_str());
