@@ -163,8 +163,7 @@ std::vector<Setting> NetworkSettings() {
        }},
       {"call-memory", "MIB",
        "Memory for the requests and answers of all calls together, of which one client can have three quarters; at "
-       "least "
-       "eight times max-request-bytes [512, or that]",
+       "least eight times max-request-bytes [512, or that]",
        [](const std::string& text, Options& to) { return ReadInteger(text, int64_t{1} << 20, to.call_memory_mib); }},
       {"handshake-timeout", "SECONDS", "Close a connection that does not begin HTTP/2, with TLS, in this time [10]",
        [](const std::string& text, Options& to) { return ReadTimeLimit(text, to.transport_times.handshake); }},

@@ -81,13 +81,14 @@ Estimate EstimateOf(const std::array<double, kNeighbours>& changes, const Weight
   return {.rate = sum[0] / step, .error = (cut_off + rounding) / std::fabs(step), .is_cut_off = cut_off > rounding};
 }
 
-// Keeps the better estimate. Returns true if it is the new one. An estimate over a shorter step is also better if it
-// contradicts the one so far, which then has stepped over a bend.
-bool Improve(Estimate& best, const Estimate& next) {
-  const bool contradicts = std::fabs(next.rate - best.rate) > kContradiction * (best.error + next.error);
-  if (!(next.error < best.error || contradicts) || !std::isfinite(next.rate)) return false;
-  best = next;
-  return true;
+bool IsBetter(const Estimate& next, const Estimate& best) {
+  return next.error < best.error && std::isfinite(next.rate);
+}
+
+// True if an estimate over a shorter step contradicts the one so far, which then has stepped over a bend.
+bool Contradicts(const Estimate& shorter, const Estimate& best) {
+  return std::fabs(shorter.rate - best.rate) > kContradiction * (best.error + shorter.error) &&
+         std::isfinite(shorter.rate);
 }
 
 // --- Both sides of a number ---
@@ -132,7 +133,9 @@ class Sides {
       return derivative;
     }
     Estimate best = central_[i];
-    for (const auto& side : one_sided_) Improve(best, side[i]);
+    for (const auto& side : one_sided_) {
+      if (IsBetter(side[i], best)) best = side[i];
+    }
     derivative.value = derivative.from_below = derivative.from_above = best.rate + 0.0;
     derivative.error = kMargin * best.error;
     return derivative;
@@ -161,7 +164,9 @@ class Sides {
         is_one_course[0] && is_one_course[1] && beside_[0]->course == here.course && beside_[1]->course == here.course;
     bool goes_on = false;
     const auto improve = [&goes_on](Estimate& best, const Estimate& next) {
-      goes_on |= Improve(best, next) || next.is_cut_off;
+      const bool replaces = IsBetter(next, best) || Contradicts(next, best);
+      if (replaces) best = next;
+      goes_on |= replaces || next.is_cut_off;
     };
     for (size_t i = 0; i < central_.size(); ++i) {
       std::array<double, kNeighbours> changes;

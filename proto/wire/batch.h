@@ -26,8 +26,7 @@ void SetInputs(const BatchRows& rows, size_t first, size_t count, v1::SolveBatch
 // Errors: DATA_LOSS if the answer has another number of columns or rows.
 absl::Status CopyOutputs(const v1::SolveBatchResponse& response, size_t first, size_t count, const BatchRows& rows);
 
-// BatchExchange: the rows of a request and of its answer, as a Solver takes them. It keeps its memory from one request
-// to the next.
+// BatchExchange: the rows of a request and of its answer, as a Solver takes them.
 class BatchExchange {
  public:
   // Takes the inputs of `request`, which must outlive their use.

@@ -1,7 +1,5 @@
 #include "server/admission/call_memory.h"
 
-#include <utility>
-
 #include "server/base/refusals.h"
 
 namespace ricochet::server {
@@ -13,7 +11,7 @@ bool Fits(int64_t held, int64_t bytes, int64_t limit) { return held == 0 || byte
 
 absl::StatusOr<CallMemory::Hold> CallMemory::Take(absl::FunctionRef<std::string()> peer, int64_t bytes) {
   if (bytes < kUncounted) return Hold();
-  std::string name = peer();
+  const std::string name = peer();
   const std::lock_guard lock(mutex_);
   const auto found = held_by_peer_.find(name);
   const int64_t held_by_peer = found == held_by_peer_.end() ? 0 : found->second;
@@ -21,16 +19,15 @@ absl::StatusOr<CallMemory::Hold> CallMemory::Take(absl::FunctionRef<std::string(
   if (!Fits(held_by_peer, bytes, bytes_of_peer_)) return NoMemoryOfPeer(bytes_of_peer_);
   held_ += bytes;
   held_by_peer_[name] += bytes;
-  return Hold(this, {.peer = std::move(name), .bytes = bytes});
+  return Hold(this, [this, name, bytes](void* /*this*/) { GiveBack(name, bytes); });
 }
 
-void CallMemory::Hold::GiveBack::operator()(Held* held) const {
-  const std::unique_ptr<Held> owned(held);
-  const std::lock_guard lock(memory->mutex_);
-  memory->held_ -= held->bytes;
-  const auto found = memory->held_by_peer_.find(held->peer);
-  found->second -= held->bytes;
-  if (found->second == 0) memory->held_by_peer_.erase(found);
+void CallMemory::GiveBack(const std::string& peer, int64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  held_ -= bytes;
+  const auto found = held_by_peer_.find(peer);
+  found->second -= bytes;
+  if (found->second == 0) held_by_peer_.erase(found);
 }
 
 int64_t CallMemory::held() const {

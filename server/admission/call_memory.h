@@ -22,24 +22,8 @@ namespace ricochet::server {
 // Thread safety: every method may be called from several threads at once.
 class CallMemory {
  public:
-  // The right to hold some bytes. Destroying it gives them back.
-  class Hold {
-   public:
-    Hold() = default;
-
-   private:
-    friend class CallMemory;
-    struct Held {
-      std::string peer;
-      int64_t bytes;
-    };
-    struct GiveBack {
-      CallMemory* memory;
-      void operator()(Held* held) const;
-    };
-    Hold(CallMemory* memory, Held held) : held_(new Held(std::move(held)), GiveBack{memory}) {}
-    std::unique_ptr<Held, GiveBack> held_{nullptr, GiveBack{nullptr}};
-  };
+  // The right to hold some bytes. The end of its last copy gives them back.
+  using Hold = std::shared_ptr<void>;
 
   // Messages of fewer bytes are not counted, so that a small call does not pay for it: the number of live calls limits
   // those.
@@ -57,6 +41,8 @@ class CallMemory {
   int64_t held() const;
 
  private:
+  void GiveBack(const std::string& peer, int64_t bytes);
+
   const int64_t bytes_;
   const int64_t bytes_of_peer_;
   mutable std::mutex mutex_;

@@ -22,16 +22,15 @@ absl::StatusOr<LiveCalls::Permit> LiveCalls::Enter(const std::string& peer, bool
   }
   all_.Add(1, is_stream);
   peers_[peer].Add(1, is_stream);
-  return Permit(this, {.peer = peer, .is_stream = is_stream});
+  return Permit(this, [this, peer, is_stream](void* /*this*/) { Leave(peer, is_stream); });
 }
 
-void LiveCalls::Permit::GiveBack::operator()(Held* held) const {
-  const std::unique_ptr<Held> owned(held);
-  const std::lock_guard lock(live_calls->mutex_);
-  live_calls->all_.Add(-1, held->is_stream);
-  const auto found = live_calls->peers_.find(held->peer);
-  found->second.Add(-1, held->is_stream);
-  if (found->second.calls == 0) live_calls->peers_.erase(found);
+void LiveCalls::Leave(const std::string& peer, bool is_stream) {
+  const std::lock_guard lock(mutex_);
+  all_.Add(-1, is_stream);
+  const auto found = peers_.find(peer);
+  found->second.Add(-1, is_stream);
+  if (found->second.calls == 0) peers_.erase(found);
 }
 
 int LiveCalls::live() const {

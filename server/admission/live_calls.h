@@ -40,25 +40,8 @@ constexpr LiveCallLimits LiveCallLimitsFor(int calls) {
 // Thread safety: every method may be called from several threads at once.
 class LiveCalls {
  public:
-  // The right of one call to be live. Destroying it gives it back.
-  class Permit {
-   public:
-    Permit(Permit&&) noexcept = default;
-    Permit& operator=(Permit&&) noexcept = default;
-
-   private:
-    friend class LiveCalls;
-    struct Held {
-      std::string peer;
-      bool is_stream;
-    };
-    struct GiveBack {
-      LiveCalls* live_calls;
-      void operator()(Held* held) const;
-    };
-    Permit(LiveCalls* live_calls, Held held) : held_(new Held(std::move(held)), GiveBack{live_calls}) {}
-    std::unique_ptr<Held, GiveBack> held_;
-  };
+  // The right of one call to be live. The end of its last copy gives it back.
+  using Permit = std::shared_ptr<void>;
 
   explicit LiveCalls(const LiveCallLimits& limits) : limits_(limits) {}
 
@@ -77,6 +60,8 @@ class LiveCalls {
       if (is_stream) streams += number;
     }
   };
+
+  void Leave(const std::string& peer, bool is_stream);
 
   const LiveCallLimits limits_;
   mutable std::mutex mutex_;

@@ -36,7 +36,7 @@ struct LogField {
   std::variant<std::string, int64_t, double> value;
 };
 
-// Returns at most 256 bytes of a text that a caller sent, so that no call fills the log.
+// Returns a text that a caller sent, or its first 256 bytes and "...", so that no call fills the log.
 std::string Clipped(const std::string& text);
 
 // Thread safety: Write may be called from several threads at once.

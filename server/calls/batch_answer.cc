@@ -35,7 +35,8 @@ absl::Status BatchAnswer::Fill(const v1::SolveBatchRequest& request, v1::SolveBa
     if (!session.ok()) return session.status();
     session_.emplace(*std::move(session));
   }
-  const absl::StatusOr<BatchSummary> summary = exchange_.Answer(*session_, setup_.columns.size(), request, response);
+  const absl::StatusOr<BatchSummary> summary =
+      BatchExchange().Answer(*session_, setup_.columns.size(), request, response);
   if (summary.ok()) Count(*summary, record);
   return summary.status();
 }

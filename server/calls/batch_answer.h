@@ -35,7 +35,6 @@ class BatchAnswer {
   const CallOptions options_;
   BatchSetup setup_;
   std::optional<BatchSession> session_;
-  BatchExchange exchange_;
 };
 
 }  // namespace ricochet::server

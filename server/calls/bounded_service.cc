@@ -1,5 +1,6 @@
 #include "server/calls/bounded_service.h"
 
+#include <google/protobuf/descriptor.h>
 #include <grpcpp/support/method_handler.h>
 #include <grpcpp/support/slice.h>
 
@@ -9,7 +10,6 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/string_view.h"
 #include "proto/wire/message_content.h"
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
@@ -31,6 +31,14 @@ absl::Status CheckBytes(int64_t bytes, int64_t most) {
   return MakeError(absl::StatusCode::kResourceExhausted, ErrorReason::kLimitExceeded,
                    absl::StrCat("the request has ", bytes, " bytes: must have at most ", most,
                                 most == kMostBytes ? "" : ", the limit max_request_bytes; send a batch in pieces"));
+}
+
+// Returns the number of messages and texts; 0 for bytes that are no message. Errors: those of CheckContent.
+absl::StatusOr<int64_t> CountElements(const grpc::ByteBuffer& bytes, const google::protobuf::Descriptor& type,
+                                      int64_t most) {
+  grpc::Slice whole;
+  if (!bytes.DumpToSingleSlice(&whole).ok()) return 0;
+  return CheckContent({reinterpret_cast<const char*>(whole.begin()), whole.size()}, type, most);
 }
 
 // Lets another handler answer a call, and watches whether the caller reads the answer.
@@ -70,16 +78,10 @@ template <typename Request>
 absl::StatusOr<Parsed<Request>> RequestReader::Parse(grpc::ByteBuffer& bytes) const {
   const auto length = static_cast<int64_t>(bytes.Length());
   if (absl::Status too_long = CheckBytes(length, bounds_.bytes); !too_long.ok()) return too_long;
-  int64_t elements = 0;
-  grpc::Slice whole;
-  if (bytes.DumpToSingleSlice(&whole).ok()) {
-    const absl::string_view view(reinterpret_cast<const char*>(whole.begin()), whole.size());
-    const absl::StatusOr<int64_t> counted = CheckContent(view, *Request::descriptor(), bounds_.elements);
-    if (!counted.ok()) return counted.status();
-    elements = *counted;
-  }
-  // All requests but batches are converted as a whole, so that their numbers are there twice.
-  absl::StatusOr<CallMemory::Hold> memory = Take(length + std::min(length, kMostBytes) + kBytesPerElement * elements);
+  const absl::StatusOr<int64_t> elements = CountElements(bytes, *Request::descriptor(), bounds_.elements);
+  if (!elements.ok()) return elements.status();
+  // The solver gets a copy of the request, except of the columns of a batch.
+  absl::StatusOr<CallMemory::Hold> memory = Take(length + std::min(length, kMostBytes) + kBytesPerElement * *elements);
   if (!memory.ok()) return memory.status();
   absl::StatusOr<Parsed<Request>> parsed(absl::in_place, Parsed<Request>{*std::move(memory), Request()});
   if (grpc::SerializationTraits<Request>::Deserialize(&bytes, &parsed->message).ok()) return parsed;

@@ -5,7 +5,7 @@
 // messages and texts than any request within the limits is refused with RESOURCE_EXHAUSTED and
 // ErrorReason::kLimitExceeded, one with fields or enum values that this server does not know with INVALID_ARGUMENT, and
 // is never parsed. Batches may have as many bytes as Limits::max_request_bytes, all other requests at most 1 MiB. What
-// a request takes once it is parsed counts in the CallMemory until its handler returns.
+// a request takes once it is parsed counts in the CallMemory until it is answered.
 
 #ifndef RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_
 #define RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_
@@ -47,7 +47,7 @@ struct Parsed {
   Request message;
 };
 
-// What the requests of one call have in common. All references must outlive this object.
+// RequestReader parses the requests of one call within their bounds. All references must outlive it.
 class RequestReader {
  public:
   RequestReader(const grpc::ServerContext& context, const MessageBounds& bounds, CallMemory& memory, Auth* auth)
@@ -100,10 +100,10 @@ class BoundedService final : public grpc::Service {
   using Methods = v1::ImpactService::Service;
   using Batches = std::function<grpc::Status(grpc::ServerContext&, BoundedBatches&)>;
 
-  // What the calls share. All must outlive the service.
+  // The calls share these, which must outlive the service.
   struct Frame {
     UnreadWatch& unread;   // Watches the answers.
-    CallMemory& memory;    // Is taken from for requests and streams.
+    CallMemory& memory;    // Requests and streams take from it.
     Auth* auth = nullptr;  // Knows callers by token or certificate; null if the server has no such list.
   };
 

@@ -21,7 +21,7 @@ namespace {
 // while the call goes on.
 constexpr std::chrono::milliseconds kBetweenLooks(1);
 
-// A stream can run for an hour, and looks as often whether its caller still may call.
+// A stream can run for an hour. This often it looks whether its caller is still known.
 constexpr std::chrono::seconds kBetweenChecks(1);
 
 // A write that takes longer than this is counted as a stall.
@@ -33,8 +33,8 @@ bool HasExpired(const grpc::ServerContext& context) { return context.deadline() 
 // up, and nobody waits for the record.
 class Ending {
  public:
-  Ending(std::optional<LiveCalls::Permit> place, CallMemory::Hold answer, CallRecord record,
-         grpc::ServerContext& context, const Observer& observer)
+  Ending(LiveCalls::Permit place, CallMemory::Hold answer, CallRecord record, grpc::ServerContext& context,
+         const Observer& observer)
       : place_(std::move(place)),
         answer_(std::move(answer)),
         record_(std::move(record)),
@@ -44,7 +44,7 @@ class Ending {
     if (record_.status != absl::StatusCode::kDeadlineExceeded && context_.IsCancelled()) {
       record_.status = HasExpired(context_) ? absl::StatusCode::kDeadlineExceeded : absl::StatusCode::kCancelled;
     }
-    answer_ = {};
+    answer_.reset();
     place_.reset();
     observer_.Ended(record_);
   }
@@ -52,7 +52,7 @@ class Ending {
   Ending& operator=(const Ending&) = delete;
 
  private:
-  std::optional<LiveCalls::Permit> place_;
+  LiveCalls::Permit place_;
   CallMemory::Hold answer_;
   CallRecord record_;
   grpc::ServerContext& context_;
@@ -76,9 +76,9 @@ Call::Call(const char* method, Kind kind, grpc::ServerContext& context, const Ca
 
 Call::~Call() {
   record_.duration_s = elapsed_s();
-  std::optional<LiveCalls::Permit> place;
+  LiveCalls::Permit place;
   if (place_.ok()) place = *std::move(place_);
-  const bool is_refused = !place.has_value();
+  const bool is_refused = place == nullptr;
   frame_.unread.Sends(
       context_, is_refused,
       std::make_shared<Ending>(std::move(place), std::move(answer_), std::move(record_), context_, frame_.observer));
@@ -141,7 +141,7 @@ absl::StatusOr<bool> Call::Receive(absl::FunctionRef<bool()> read) {
 }
 
 absl::Status Call::HoldAnswer(int64_t bytes) {
-  answer_ = {};
+  answer_.reset();
   absl::StatusOr<CallMemory::Hold> taken = frame_.memory.Take([this] { return peer_key_; }, bytes);
   if (!taken.ok()) return taken.status();
   answer_ = *std::move(taken);
@@ -151,7 +151,7 @@ absl::Status Call::HoldAnswer(int64_t bytes) {
 absl::Status Call::Send(absl::FunctionRef<bool()> write) {
   const UnreadWatch::Write watched(frame_.unread, context_);
   const bool is_written = write();
-  answer_ = {};
+  answer_.reset();
   if (watched.waited() > kStall) {
     ++record_.stalls;
     record_.stalled_s += watched.waited().count();

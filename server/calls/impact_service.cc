@@ -221,8 +221,8 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
     if (response.values().capacity() > 2 * sizeof(double) * chunk.values.size()) response = {};
     ToProto(chunk, response);
     // A caller who reads slowly holds the message for long, and need not hold the values twice.
-    chunk.values = {};
-    chunk.regimes = {};
+    chunk.values = std::vector<double>();
+    chunk.regimes = std::vector<Regime>();
     seal.Put(response);
   };
   return ForwardStream<SweepChunk>(

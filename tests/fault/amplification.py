@@ -1,4 +1,7 @@
-"""Small requests that ask for much: none may take more than 64 MiB or end the process, and each can be stopped."""
+"""Small requests that ask for much: none may take more than 64 MiB or end the process, and each can be stopped.
+
+Answers that nobody reads have a limit of their own.
+"""
 
 import struct
 import threading

@@ -104,9 +104,10 @@ absl::StatusOr<std::unique_ptr<WebServer>> WebServer::Start(std::string host, in
   mg_init_data how = {.callbacks = nullptr, .user_data = server.get(), .configuration_options = text};
   mg_error_data error = {.code = nullptr, .text = reason.data(), .text_buffer_size = reason.size()};
   mg_context* const web = server->web_ = mg_start2(&how, &error);
-  if (web == nullptr)
+  if (web == nullptr) {
     return absl::UnavailableError(
         absl::StrCat("cannot listen at ", where, ": ", reason.data(), "; is the address in use?"));
+  }
   mg_server_port bound = {};
   if (mg_get_server_ports(web, 1, &bound) == 1) server->port_ = bound.port;
   mg_set_request_handler(web, "/", &Handle, server.get());
