@@ -163,7 +163,7 @@ std::vector<Setting> NetworkSettings() {
        }},
       {"call-memory", "MIB",
        "Memory for the requests and answers of all calls together, of which one client can have three quarters; at "
-       "least eight times max-request-bytes [512, or that]",
+       "least what the largest batch and its answer need [512, or that]",
        [](const std::string& text, Options& to) { return ReadInteger(text, int64_t{1} << 20, to.call_memory_mib); }},
       {"handshake-timeout", "SECONDS", "Close a connection that does not begin HTTP/2, with TLS, in this time [10]",
        [](const std::string& text, Options& to) { return ReadTimeLimit(text, to.transport_times.handshake); }},
@@ -383,7 +383,9 @@ void CheckTogether(const Options& options, std::vector<std::string>& violations)
   const int64_t memory = LeastCallMemoryMib(options.limits);
   if (options.call_memory_mib < memory) {
     violations.push_back(Violated("call-memory", absl::StrCat(options.call_memory_mib),
-                                  absl::StrCat("must be >= ", memory, ", eight times --max-request-bytes")));
+                                  absl::StrCat("must be >= ", memory,
+                                               ": three quarters of it must hold the largest batch, by "
+                                               "--max-request-bytes, and its answer, by --max-batch-numbers")));
   }
   const int threads = options.live_calls.calls + Options::kSpareThreads;
   if (options.max_threads < threads) {
@@ -508,7 +510,11 @@ CommandLine DeclareOptions() {
 
 int64_t LeastCallMemoryMib(const Limits& limits) {
   constexpr int64_t kMiB = int64_t{1} << 20;
-  return std::max<int64_t>(8, (8 * limits.max_request_bytes + kMiB - 1) / kMiB);
+  constexpr int64_t kLeastMib = 32;
+  // What a batch holds is at most twice its bytes. Its answer is held as a message and as bytes, and in each of them a
+  // number takes 8 bytes and a regime at most 2.
+  const int64_t of_peer = 2 * limits.max_request_bytes + 20 * limits.max_batch_numbers;
+  return std::max(kLeastMib, (of_peer * 4 / 3 + kMiB - 1) / kMiB);
 }
 
 std::unique_ptr<CLI::App> MakeCommandLine() { return DeclareOptions().app; }

@@ -71,8 +71,8 @@ struct Options {
   friend bool operator==(const Options&, const Options&) = default;
 };
 
-// Eight times the largest request, and at least 8 MiB: with the other limits at their defaults the share of one client
-// has room for the largest batch with its answer.
+// So much that the share of one client, three quarters, has room for the largest batch with its answer, and at least
+// 32 MiB: any other request with its answer takes less.
 int64_t LeastCallMemoryMib(const Limits& limits);
 
 // A text that the user asked for instead of a server: --help, --version.

@@ -82,7 +82,7 @@ absl::Status PauseLimitReached(milliseconds limit) {
 }
 
 absl::Status CallerRemoved() {
-  return absl::UnauthenticatedError("the caller of this call is no longer known; it ends here");
+  return absl::UnauthenticatedError("the caller is no longer known or may no longer make this call, which ends here");
 }
 
 absl::Status Draining() {

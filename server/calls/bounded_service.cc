@@ -23,8 +23,9 @@ constexpr int64_t kLeastElements = 16'384;
 // An empty message or text takes about this much memory once it is parsed and converted.
 constexpr int64_t kBytesPerElement = 512;
 
-// A stream holds a chunk of up to 512 KiB twice, as a message and as its bytes, while its caller does not read it.
-constexpr int64_t kChunkBytes = int64_t{1} << 20;
+// While its caller does not read, a stream holds a chunk of up to 512 KiB three times, as numbers, as a message and as
+// the bytes of the message, and the chunk that follows it.
+constexpr int64_t kStreamBytes = int64_t{2} << 20;
 
 absl::Status CheckBytes(int64_t bytes, int64_t most) {
   if (bytes <= most) return absl::OkStatus();
@@ -133,7 +134,7 @@ void BoundedService::AddUnary(const char* path,
                                   grpc::ByteBuffer* sent) {
     const absl::StatusOr<Parsed<Request>> request =
         ReaderOf<Request>(*context).template Parse<Request>(OwnedBytes(bytes));
-    if (!request.ok()) return ToGrpcStatus(request.status());
+    if (!request.ok()) return Refuse(*context, request.status());
     Response response;
     const grpc::Status status = (service->*method)(context, &request->message, &response);
     bool is_owned = false;
@@ -150,9 +151,9 @@ void BoundedService::AddStream(const char* path, grpc::Status (Methods::*method)
                                   grpc::ServerWriter<Response>* writer) {
     const RequestReader reader = ReaderOf<Request>(*context);
     const absl::StatusOr<Parsed<Request>> request = reader.template Parse<Request>(OwnedBytes(bytes));
-    if (!request.ok()) return ToGrpcStatus(request.status());
-    const absl::StatusOr<CallMemory::Hold> chunk = reader.Take(kChunkBytes);
-    if (!chunk.ok()) return ToGrpcStatus(chunk.status());
+    if (!request.ok()) return Refuse(*context, request.status());
+    const absl::StatusOr<CallMemory::Hold> chunks = reader.Take(kStreamBytes);
+    if (!chunks.ok()) return Refuse(*context, chunks.status());
     return (service->*method)(context, &request->message, writer);
   };
   Add(path, grpc::internal::RpcMethod::SERVER_STREAMING,
@@ -166,6 +167,11 @@ void BoundedService::AddBatches(const char* path) {
   };
   Add(path, grpc::internal::RpcMethod::BIDI_STREAMING,
       std::make_unique<grpc::internal::TemplatedBidiStreamingHandler<BoundedBatches::Stream, false>>(run));
+}
+
+grpc::Status BoundedService::Refuse(const grpc::ServerContext& context, const absl::Status& refusal) const {
+  frame_.unread.Sends(context, true, nullptr);
+  return ToGrpcStatus(refusal);
 }
 
 void BoundedService::Add(const char* path, grpc::internal::RpcMethod::RpcType type,

@@ -120,6 +120,9 @@ class BoundedService final : public grpc::Service {
   void AddBatches(const char* path);
   void Add(const char* path, grpc::internal::RpcMethod::RpcType type,
            std::unique_ptr<grpc::internal::MethodHandler> handler);
+  // Returns what the handler of a refused call must return, and has the watch end the call soon if the caller does not
+  // read it.
+  grpc::Status Refuse(const grpc::ServerContext& context, const absl::Status& refusal) const;
   // Returns what reads the requests of a call.
   template <typename Request>
   RequestReader ReaderOf(const grpc::ServerContext& context) const;

@@ -220,9 +220,6 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
     // A message keeps the room of the largest chunk that it had, which a caller who has become slow need not hold.
     if (response.values().capacity() > 2 * sizeof(double) * chunk.values.size()) response = {};
     ToProto(chunk, response);
-    // A caller who reads slowly holds the message for long, and need not hold the values twice.
-    chunk.values = std::vector<double>();
-    chunk.regimes = std::vector<Regime>();
     seal.Put(response);
   };
   return ForwardStream<SweepChunk>(

@@ -24,6 +24,21 @@ constexpr char kBearer[] = "Bearer ";
 
 std::string Text(const grpc::string_ref& text) { return {text.data(), text.size()}; }
 
+Evidence EvidenceOf(const grpc::ServerContext& context) {
+  Evidence evidence;
+  const auto headers = context.client_metadata().equal_range("authorization");
+  for (auto header = headers.first; header != headers.second; ++header) {
+    evidence.authorization.push_back(Text(header->second));
+  }
+  if (const auto auth = context.auth_context(); auth != nullptr) evidence.certificate_names = CertificateNames(*auth);
+  return evidence;
+}
+
+bool MayCall(const Callers::Caller& caller, const std::optional<std::string>& scope) {
+  const auto allows = [&scope](const std::string& one) { return one == "all" || one == scope; };
+  return scope.has_value() && std::any_of(caller.scopes.begin(), caller.scopes.end(), allows);
+}
+
 }  // namespace
 
 absl::StatusOr<std::shared_ptr<Auth>> Auth::Open(const std::string& path, const Log& log) {
@@ -86,21 +101,18 @@ absl::Status Auth::Check(const Evidence& evidence) {
   if (!finding.caller.has_value()) {
     return Refuse(absl::UnauthenticatedError("the call is not authenticated"), evidence, "", finding.reason);
   }
-  const std::vector<std::string>& scopes = finding.caller->scopes;
-  const auto allows = [&scope](const std::string& one) { return one == "all" || one == scope; };
-  if (scope.has_value() && std::any_of(scopes.begin(), scopes.end(), allows)) return absl::OkStatus();
+  if (MayCall(*finding.caller, scope)) return absl::OkStatus();
   return Refuse(absl::PermissionDeniedError("the caller may not call this method"), evidence, finding.caller->name,
                 scope.has_value() ? absl::StrCat("scope ", *scope, " is missing") : "unknown method");
 }
 
+bool Auth::StillAllows(const grpc::ServerContext& context, const std::string& method, const std::string& caller) {
+  const std::optional<Callers::Caller> found = Find(EvidenceOf(context)).caller;
+  return found.has_value() && found->name == caller && MayCall(*found, ScopeOf(method));
+}
+
 std::string Auth::CallerOf(const grpc::ServerContext& context) {
-  Evidence evidence;
-  const auto headers = context.client_metadata().equal_range("authorization");
-  for (auto header = headers.first; header != headers.second; ++header) {
-    evidence.authorization.push_back(Text(header->second));
-  }
-  if (const auto auth = context.auth_context(); auth != nullptr) evidence.certificate_names = CertificateNames(*auth);
-  const Finding finding = Find(evidence);
+  const Finding finding = Find(EvidenceOf(context));
   return finding.caller.has_value() ? finding.caller->name : "";
 }
 

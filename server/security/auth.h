@@ -49,6 +49,10 @@ class Auth {
   // Returns OK if the call may go on. Errors: UNAUTHENTICATED, PERMISSION_DENIED, both with a fixed text.
   absl::Status Check(const Evidence& evidence);
 
+  // Returns true if the call is one of `caller`, a name of CallerOf, who may call this method (a path, as in Evidence).
+  // Neither logs nor counts.
+  bool StillAllows(const grpc::ServerContext& context, const std::string& method, const std::string& caller);
+
   // Returns "token:NAME" or "certificate:NAME" of the caller, or an empty text for a call of health without a token.
   std::string CallerOf(const grpc::ServerContext& context);
 

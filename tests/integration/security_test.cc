@@ -443,13 +443,17 @@ struct StartedSweep {
   absl::Status first;
 };
 
-TEST_F(Tokens, AStreamEndsWhenItsTokenIsRemoved) {
-  files_.Write("tokens", LineOf("lab", "secret", "sweep") + LineOf("shop", "other", "sweep"));
+TEST_F(Tokens, AStreamEndsWhenItsTokenOrItsScopeIsRemoved) {
+  files_.Write("tokens", LineOf("lab", "secret", "sweep") + LineOf("shop", "other", "sweep") +
+                             LineOf("office", "third", "sweep,solve"));
   const ServerProcess server({"--tokens", files_ / "tokens"});
   StartedSweep removed(server.address(), "secret");
   StartedSweep kept(server.address(), "other");
-  files_.Write("tokens", LineOf("lab", "fresh", "sweep") + LineOf("shop", "other", "sweep"));
+  StartedSweep narrowed(server.address(), "third");
+  files_.Write("tokens",
+               LineOf("lab", "fresh", "sweep") + LineOf("shop", "other", "sweep") + LineOf("office", "third", "solve"));
   EXPECT_EQ(removed.ReadFor(std::chrono::seconds(20)).code(), StatusCode::kUnauthenticated);
+  EXPECT_EQ(narrowed.ReadFor(std::chrono::seconds(20)).code(), StatusCode::kUnauthenticated);
   EXPECT_TRUE(kept.ReadFor(std::chrono::seconds(2)).ok());
 }
 

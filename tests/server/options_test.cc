@@ -411,21 +411,26 @@ std::map<std::string, std::pair<std::string, std::string>> Ranges() {
   ranges["max-threads"] = {"1152", "1048576"};
   ranges["compute-threads"] = {"1", "1024"};
   ranges["transport-memory"] = {"1", "1048576"};
-  ranges["call-memory"] = {"128", "1048576"};
+  ranges["call-memory"] = {"96", "1048576"};
   for (const NamedLimit& limit : kLimits) {
     ranges[absl::StrReplaceAll(limit.name, {{"_", "-"}})] = {"1", std::to_string(limit.most)};
   }
   return ranges;
 }
 
-TEST(Options, TheMemoryOfCallsHoldsEightOfTheLargestRequests) {
+TEST(Options, TheMemoryOfCallsHoldsTheLargestBatchAndItsAnswer) {
   const auto large = Parse("", {.flags = {"--max-request-bytes", "268435456"}});
   ASSERT_TRUE(large.ok()) << large.status();
-  EXPECT_EQ(std::get<Options>(*large).call_memory_mib, 2048);
-  const auto small = Parse("", {.flags = {"--max-request-bytes", "1048576", "--call-memory", "8"}});
+  EXPECT_EQ(std::get<Options>(*large).call_memory_mib, 736) << "4/3 of twice 256 MiB and 40 MiB";
+  const auto small = Parse("", {.flags = {"--max-request-bytes", "1048576", "--call-memory", "56"}});
   EXPECT_TRUE(small.ok()) << small.status();
-  const auto wrong = Parse("", {.flags = {"--max-request-bytes", "1048577", "--call-memory", "8"}});
-  EXPECT_EQ(wrong.status().message(), "--call-memory = 8: must be >= 9, eight times --max-request-bytes");
+  const auto wrong = Parse("", {.flags = {"--max-request-bytes", "1048576", "--call-memory", "55"}});
+  EXPECT_EQ(wrong.status().message(),
+            "--call-memory = 55: must be >= 56: three quarters of it must hold the largest batch, by "
+            "--max-request-bytes, and its answer, by --max-batch-numbers");
+  const auto tiny =
+      Parse("", {.flags = {"--max-request-bytes", "1", "--max-batch-numbers", "1", "--call-memory", "31"}});
+  EXPECT_THAT(std::string(tiny.status().message()), HasSubstr("must be >= 32"));
 }
 
 TEST(Options, EveryNumberIsTakenFromItsLeastToItsMostAndNotBeyond) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
@@ -93,7 +94,7 @@ std::vector<Tick> ShortLogTicks(const AxisRange& range) {
   return ticks;
 }
 
-// Ticks may lie outside of the range by its rounding.
+// An axis has at least two labels, even if they are crowded. Ticks may lie outside of the range by its rounding.
 std::vector<Tick> UnclampedTicks(const AxisRange& range, double length, double character, bool stacked, bool log,
                                  double least_step) {
   if (log) {
@@ -101,11 +102,14 @@ std::vector<Tick> UnclampedTicks(const AxisRange& range, double length, double c
     const int last = static_cast<int>(std::floor(std::log10(range.upper) + 1e-9));
     if (last > first) {
       const double decade = length / (std::log10(range.upper) - std::log10(range.lower));
-      int every = 1;
-      while (every * decade < RoomFor(PowerTicks(first, last, every), character, stacked)) {
+      std::vector<Tick> ticks = PowerTicks(first, last, 1);
+      for (int every = 1; every * decade < RoomFor(ticks, character, stacked);) {
         every += every < 10 ? 1 : 10 - every % 10;
+        std::vector<Tick> fewer = PowerTicks(first, last, every);
+        if (fewer.size() < 2) break;
+        ticks = std::move(fewer);
       }
-      return PowerTicks(first, last, every);
+      return ticks;
     }
     std::vector<Tick> ticks = ShortLogTicks(range);
     if (ticks.size() > 1) return ticks;
@@ -118,7 +122,6 @@ std::vector<Tick> UnclampedTicks(const AxisRange& range, double length, double c
     std::vector<Tick> ticks = LinearTicks(range, step);
     if (length * step.value() / width >= RoomFor(ticks, character, stacked)) return ticks;
     const Step next = Next(step);
-    // An axis has at least two labels, even if they are crowded.
     if (LinearTicks(range, next).size() < 2) return ticks;
     step = next;
   }
@@ -150,7 +153,7 @@ std::string NumberText(double value) {
 
 AxisRange RangeFor(double least, double most, double margin, double noise, bool log) {
   const double scale = std::max(std::abs(least), std::abs(most));
-  if (most - least <= std::max(noise, kRounding * scale)) {
+  if (most - least <= std::max({noise, kRounding * scale, log ? 0.0 : kLeastOnAxis})) {
     const double middle = least + 0.5 * (most - least);
     if (log) return {middle / 2.0, middle * 2.0};
     const double half = std::max({0.1 * scale, 10.0 * noise, scale < kLeastOnAxis ? 1.0 : 0.0});

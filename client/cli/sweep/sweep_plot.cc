@@ -323,7 +323,7 @@ absl::StatusOr<Plot> PlotOf(const SweepTable& table, PlotKind kind) {
     if (kind == PlotKind::kMap && table.points() > std::max(xs.size(), ys.size())) return MapsOf(table, xs, ys);
   }
   if (kind == PlotKind::kMap) {
-    return absl::FailedPreconditionError("--kind map needs a grid of two axes that are combined with each other");
+    return absl::InvalidArgumentError("--kind map needs a grid of two axes that are combined with each other");
   }
   return CurvesOf(table);
 }

@@ -73,11 +73,11 @@ class ExplorePageTest(unittest.TestCase):
         self.browser.open(f"{self.url}#at={scene}")
         self.settle()
 
-    def settle(self):
+    def settle(self, settled=SETTLED):
         """Waits until no change is under way, and the answer to the last one is drawn."""
         time.sleep(0.15)
         for _ in range(200):
-            if self.browser.script(SETTLED):
+            if self.browser.script(settled):
                 break
             time.sleep(0.05)
         time.sleep(0.15)
@@ -273,9 +273,24 @@ class ExplorePageTest(unittest.TestCase):
         self.settle()
         self.assertEqual(self.text("#leaves"), shown)
         self.browser.open("about:blank")
-        self.browser.open(f"{self.url}#at=x&pendulum.__proto__.polluted=1&constructor.prototype.polluted=1&pendulum.a_m=1")
+        self.browser.open(f"{self.url}#at=x&pendulum.a_m=1&pendulum.__proto__.polluted=1&constructor.prototype.polluted=1")
         self.settle()
         self.assertTrue(self.browser.script("return ({}).polluted === undefined && Object.polluted === undefined"))
+
+    def test_an_address_that_holds_no_scene_is_named_and_the_page_goes_on(self):
+        for scene in ("pendulum=3", "linkage.links=5", "body_pair=3", "body_pair.spatial=1", "contacts=5",
+                      "linkage.links[2].length_m=1", "pendulum.a_m.b=1", "spatial_body.linear_m_s=2",
+                      "pendulum.a_m=1&pendulum.b_m=one", "pendulum.a_m"):
+            self.browser.open("about:blank")
+            self.browser.open(f"{self.url}#at=x&{scene}")
+            self.settle()
+            named = scene.split("&")[-1]
+            self.assertEqual(self.text("#about"),
+                             f"The address holds no scene, because of {named}: this is one to start from.")
+            self.assert_shows_the_answer_of_its_scene()
+            self.browser.script("document.querySelector('[data-at=linkage]').click()")
+            self.settle()
+            self.assertIn("Kane and Levinson", self.text("#about"))
 
     def test_a_bad_scene_is_refused_with_every_field(self):
         self.open("pendulum")
@@ -297,10 +312,20 @@ class ExplorePageTest(unittest.TestCase):
         for field in ("pendulum.b_m", "friction.kinetic_coefficient"):
             self.assertEqual(self.browser.script(f"return inputs['{field}'].number.value"), "0")
         self.assert_shows_the_answer_of_its_scene()
+        body = "".join(f"&body_pair.spatial.body_{i}.{part}" for i in (1, 2) for part in (
+            "mass_kg=1", "inertia_com_kg_m2[0]=1", "inertia_com_kg_m2[1]=1", "inertia_com_kg_m2[2]=1",
+            "offset_m[0]=0", "offset_m[1]=0", f"offset_m[2]={2 * i - 3}"))
+        self.browser.open("about:blank")
+        self.browser.open(f"{self.url}#at=x{body}&restitution.energetic=0.8" +
+                          "".join(f"&body_pair.spatial.body_1.linear_m_s[{i}]={value}" for i, value in enumerate((0, 1, 1))))
+        self.settle()
+        for field in ("body_1.angular_rad_s[2]", "body_2.linear_m_s[0]"):
+            self.assertEqual(self.browser.script(f"return inputs['body_pair.spatial.{field}'].number.value"), "0")
 
     def test_every_field_has_the_unit_of_its_name(self):
         for scene, field, unit in (("planar_body", "planar_body.offset_n_m", "[m]"),
-                                   ("planar_body", "planar_body.velocity_n_m_s", "[m/s]")):
+                                   ("planar_body", "planar_body.velocity_n_m_s", "[m/s]"),
+                                   ("planar_body", "planar_body.offset_t_m", "[m]")):
             self.open(scene)
             shown = self.browser.script(f"return inputs['{field}'].number.parentElement.firstChild.lastChild.textContent")
             self.assertEqual(shown.strip(), unit)

@@ -199,7 +199,7 @@ class PlotFileTest(RicochetCase):
         self.assertEqual(self.made("plot", "whole.csv", "--column", "newton", "-o", "short.svg"), "short.svg\n")
         self.assertIn("named once", self.refused("plot", "whole.csv", "--column", f"newton,{NEWTON}"))
         self.assertIn("named once", self.refused("plot", "whole.csv", "--column", f"{NEWTON},{NEWTON}"))
-        self.assertIn("needs a grid of two axes", self.refused("plot", "whole.csv", "--kind", "map", code=42))
+        self.assertIn("needs a grid of two axes", self.refused("plot", "whole.csv", "--kind", "map", code=2))
         self.assertFalse(list(WORK.glob("refused*")))
 
 

@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "client/cli/plot/plot_axis.h"
+
 namespace ricochet::cli {
 namespace {
 
@@ -208,6 +210,24 @@ TEST(PlotScale, MarksTheEndsThatValuesLieBeyond) {
   const std::vector<Tick> expected = {{0, "0"}, {2, "2"}, {4, "4"}, {5.2, "≥ 5.2"}};
   EXPECT_EQ(WithMarkedEnds(ticks, scale, range, 0.1), expected);
   EXPECT_EQ(WithMarkedEnds(ticks, ScaleFor({{0, 5.2}}, false), {0, 5.2}, 0.1), ticks);
+}
+
+TEST(PlotAxis, HasTicksForNumbersThatAreAllAlmostZero) {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  for (const double most : {kLeast, 1e-310, 9e-301}) {
+    const AxisRange range = RangeFor(0.0, most, 0.05, 0.0, false);
+    EXPECT_LT(range.lower, range.upper - 1.0);
+    EXPECT_GE(TicksFor(range, 600, 8, false, false).size(), 2);
+  }
+}
+
+TEST(PlotAxis, OfManyDecadesHasTwoTicksOnAShortLength) {
+  for (int first = -40; first <= 0; ++first) {
+    for (int last = first + 1; last <= 40; ++last) {
+      const AxisRange range = {std::pow(10.0, first), std::pow(10.0, last)};
+      EXPECT_GE(TicksFor(range, 60, 8, false, true).size(), 2) << first << " to " << last;
+    }
+  }
 }
 
 }  // namespace

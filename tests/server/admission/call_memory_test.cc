@@ -71,18 +71,23 @@ TEST(CallMemory, DoesNotCountSmallMessages) {
 }
 
 TEST(CallMemory, CountsRightWhenManyThreadsTake) {
-  CallMemory memory(64 * kMiB);
+  CallMemory memory(4 * kMiB);
   std::atomic<int> taken = 0;
+  std::atomic<int> refused = 0;
+  std::atomic<int> too_much = 0;
   std::vector<std::thread> threads;
   for (int t = 0; t < 8; ++t) {
-    threads.emplace_back([&memory, &taken, t] {
+    threads.emplace_back([&memory, &taken, &refused, &too_much, t] {
       for (int i = 0; i < 2000; ++i) {
-        if (Take(memory, std::to_string(t % 3), kMiB + i).ok()) ++taken;
+        const auto hold = Take(memory, std::to_string(t % 3), kMiB + i);
+        ++(hold.ok() ? taken : refused);
+        if (memory.held() > 4 * kMiB) ++too_much;
       }
     });
   }
   for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(taken, 16'000) << "eight threads never hold more than 48 MiB";
+  EXPECT_EQ(taken + refused, 16'000);
+  EXPECT_EQ(too_much, 0);
   EXPECT_EQ(memory.held(), 0);
 }
 
