@@ -24,9 +24,6 @@ double CompensatedNoise(Index n) {
   return 1.01 * noise * noise;
 }
 
-// The power of two that brings `diagonal` > 0 into [1, 4) from both sides.
-double ScaleFor(double diagonal) { return std::scalbn(1.0, -static_cast<int>(std::floor(std::ilogb(diagonal) / 2.0))); }
-
 // J^T - M x, each entry in twice the precision.
 void SetResidual(const FreePart& part, Response& response) {
   const Index n = part.mass.rows();
@@ -39,6 +36,10 @@ void SetResidual(const FreePart& part, Response& response) {
 }
 
 }  // namespace
+
+double MassScale(double diagonal) {
+  return std::scalbn(1.0, -static_cast<int>(std::floor(std::ilogb(diagonal) / 2.0)));
+}
 
 std::vector<Index> FreeCoordinates(const Mechanism& mechanism) {
   return FreeCoordinates(mechanism, TangentialDirections(mechanism) == 2);
@@ -75,7 +76,7 @@ ScaledMass::ScaledMass(const std::vector<double>& matrix, size_t n) {
   const auto size = static_cast<Index>(n);
   least_ = 16.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
   matrix_ = Eigen::Map<const MatrixXd>(matrix.data(), size, size);
-  const VectorXd scales = matrix_.diagonal().unaryExpr(&ScaleFor);
+  const VectorXd scales = matrix_.diagonal().unaryExpr(&MassScale);
   matrix_ = scales.asDiagonal() * matrix_ * scales.asDiagonal();
 }
 
@@ -102,7 +103,7 @@ FreePart::FreePart(const Mechanism& mechanism, bool in_space) : coordinates(Free
   mass.resize(free, free);
   jt.resize(free, directions);
   const auto at = [this](Index i) { return coordinates[static_cast<size_t>(i)]; };
-  for (Index i = 0; i < free; ++i) scales(i) = ScaleFor(all(at(i), at(i)));
+  for (Index i = 0; i < free; ++i) scales(i) = MassScale(all(at(i), at(i)));
   for (Index i = 0; i < free; ++i) {
     for (Index k = 0; k < free; ++k) mass(i, k) = scales(i) * all(at(i), at(k)) * scales(k);
     for (Index j = 0; j < directions; ++j) jt(i, j) = scales(i) * transposed(at(i), j);

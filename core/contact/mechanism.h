@@ -22,6 +22,9 @@ namespace ricochet {
 std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism, bool in_space);
 std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism);
 
+// The power of two that brings the entry > 0 of a diagonal into [1, 4) from both sides.
+double MassScale(double diagonal);
+
 // Bounds on the roots of the diagonal entries of M^-1, and on the root of its trace, from the Cholesky factor and the
 // trace of an M whose diagonal lies in [1, 4). They are infinite where M is singular to rounding.
 struct InverseBounds {

@@ -7,35 +7,11 @@
 // Highway prescribes the order of these includes.
 // clang-format off
 #include "hwy/foreach_target.h"
-#include "core/numerics/lanes-inl.h"
+#include "core/numerics/compensated_sum-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::HWY_NAMESPACE {
-
-template <typename V>
-class Sum {
- public:
-  explicit Sum(V start) : sum_(start), size_(Absolute(start)) {}
-
-  HWY_INLINE void Add(V x, V y) {
-    const V product = x * y;
-    const V sum = sum_ + product;
-    const V part = sum - sum_;
-    const V lost = (sum_ - (sum - part)) + (product - part);
-    correction_ = correction_ + (lost + FmaSubtract(x, y, product));
-    sum_ = sum;
-    size_ = size_ + Absolute(product);
-  }
-
-  V value() const { return sum_ + correction_; }
-  V size() const { return size_; }
-
- private:
-  V sum_;
-  V correction_ = Lanes<V>::Fill(0.0);
-  V size_;
-};
 
 CompensatedSum Dot(const double* x, const double* y, size_t count) {
   Sum<double> sum(0.0);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <limits>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "core/base/floating_point_mode.h"
+#include "core/contact/mechanism_lanes.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
 #include "python/module/rows.h"
@@ -129,13 +131,12 @@ struct States {
   std::array<double*, 9> contact;  // W by its upper triangle, then the contact velocity.
   double *axes, *turned, *response;
   Mechanism kept;  // It says which coordinates are held.
+  std::vector<size_t> free;
 };
 
-// Reduces one state. The W of one that breaks a rule is NaN, which the batch refuses.
-void Reduce(const States& states, size_t state, Scene& scene) {
+// Sets the axes of a state, and J in them.
+void Turn(const States& states, size_t state) {
   const size_t n = states.coordinates;
-  auto& mechanism = std::get<Mechanism>(scene.system);
-  const double* const mass = states.mass + state * n * n;
   const double* const jacobian = states.jacobian + state * 3 * n;
   const double* const rates = states.rates + state * n;
   const double* const normal = states.normal + state * 3;
@@ -145,33 +146,50 @@ void Reduce(const States& states, size_t state, Scene& scene) {
   }
   const Velocities velocities = {n, jacobian};
   const Axes axes = AxesOf(velocities, velocity, Unit({normal[0], normal[1], normal[2]}));
-  mechanism.mass_matrix.assign(mass, mass + n * n);
-  mechanism.rates.assign(rates, rates + n);
   for (size_t i = 0; i < 3; ++i) {
     std::copy(axes.of[i].begin(), axes.of[i].end(), states.axes + (state * 3 + i) * 3);
-    for (size_t k = 0; k < n; ++k) {
-      mechanism.jacobian[i * n + k] = axes.is_planar && i == 1 ? 0.0 : Dot(axes.of[i], velocities.Of(k));
-    }
+    double* const row = states.turned + (state * 3 + i) * n;
+    for (size_t k = 0; k < n; ++k) row[k] = axes.is_planar && i == 1 ? 0.0 : Dot(axes.of[i], velocities.Of(k));
   }
-  std::copy(mechanism.jacobian.begin(), mechanism.jacobian.end(), states.turned + state * 3 * n);
+}
+
+// Reduces one state that lanes cannot. The W of one that breaks a rule is NaN, which the batch refuses.
+void ReduceAlone(const Mechanism& kept, size_t n, MechanismState& state) {
+  Scene scene;
+  auto& mechanism = scene.system.emplace<Mechanism>(kept);
+  mechanism.mass_matrix.assign(state.mass, state.mass + n * n);
+  mechanism.jacobian.assign(state.jacobian, state.jacobian + 3 * n);
+  mechanism.rates.assign(state.rates, state.rates + n);
   SpatialReduction reduction;
   reduction.w.fill(std::numeric_limits<double>::quiet_NaN());
   Check check(Check::Mode::kVerdict);
   CheckMechanism(mechanism, 1, check);
-  if (!check.failed()) reduction = std::get<SpatialReduction>(ricochet::Reduce(scene));
-  for (size_t k = 0; k < 6; ++k) states.contact[k][state] = reduction.w[k];
-  for (size_t k = 0; k < 2; ++k) states.contact[6 + k][state] = reduction.u0[k];
-  states.contact[8][state] = reduction.v0;
+  if (!check.failed()) reduction = std::get<SpatialReduction>(Reduce(scene));
+  state.w = reduction.w;
+  state.velocity = {reduction.u0[0], reduction.u0[1], reduction.v0};
   reduction.response.resize(3 * n, std::numeric_limits<double>::quiet_NaN());
-  std::copy(reduction.response.begin(), reduction.response.end(), states.response + state * 3 * n);
+  std::copy(reduction.response.begin(), reduction.response.end(), state.response);
 }
 
 void ReducePart(const States& states, int64_t first, int64_t end) {
   const DefaultFloatingPoint mode;
-  Scene scene;
-  auto& mechanism = scene.system.emplace<Mechanism>(states.kept);
-  mechanism.jacobian.resize(3 * states.coordinates);
-  for (int64_t state = first; state < end; ++state) Reduce(states, static_cast<size_t>(state), scene);
+  const size_t n = states.coordinates;
+  std::vector<MechanismState> part;
+  for (auto at = static_cast<size_t>(first); at < static_cast<size_t>(end); ++at) {
+    Turn(states, at);
+    part.push_back({.mass = states.mass + at * n * n,
+                    .jacobian = states.turned + at * 3 * n,
+                    .rates = states.rates + at * n,
+                    .response = states.response + at * 3 * n});
+    std::fill_n(part.back().response, 3 * n, 0.0);
+  }
+  ReduceInLanes(n, states.free, absl::MakeSpan(part));
+  for (size_t i = 0; i < part.size(); ++i) {
+    MechanismState& state = part[i];
+    if (!state.is_reduced) ReduceAlone(states.kept, n, state);
+    for (size_t k = 0; k < 6; ++k) states.contact[k][static_cast<size_t>(first) + i] = state.w[k];
+    for (size_t k = 0; k < 3; ++k) states.contact[6 + k][static_cast<size_t>(first) + i] = state.velocity[k];
+  }
 }
 
 // Reduces the states on all cores and lets Python handle its signals meanwhile.
@@ -185,7 +203,7 @@ void ReduceAll(const States& states, int64_t count) {
     const int64_t piece = (end - first + cores - 1) / cores;
     std::vector<std::future<void>> others;
     for (int64_t at = first + piece; at < end; at += piece) {
-      others.push_back(std::async(std::launch::async, ReducePart, states, at, std::min(end, at + piece)));
+      others.push_back(std::async(std::launch::async, ReducePart, std::cref(states), at, std::min(end, at + piece)));
     }
     ReducePart(states, first, std::min(end, first + piece));
     for (std::future<void>& other : others) other.get();
@@ -211,7 +229,11 @@ py::tuple ReduceStates(const Numbers& mass, const Numbers& jacobian, const Numbe
                    .axes = axes.mutable_data(),
                    .turned = turned.mutable_data(),
                    .response = response.mutable_data(),
-                   .kept = {.kept_coordinates = held}};
+                   .kept = {.kept_coordinates = held},
+                   .free = {}};
+  for (size_t k = 0; k < states.coordinates; ++k) {
+    if (std::find(held.begin(), held.end(), static_cast<int32_t>(k)) == held.end()) states.free.push_back(k);
+  }
   py::list columns;
   for (double*& column : states.contact) {
     Numbers made(count);

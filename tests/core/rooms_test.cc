@@ -265,7 +265,9 @@ TEST(RoomsTest, TheCoreTakesNoElementaryFunctionFromTheCLibrary) {
 // Where a library has one door in its room, only that file includes it.
 TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
   const std::map<std::string, std::vector<std::string>> doors = {
-      {"hwy/", {"core/models/", "core/numerics/", "core/plan/pendulum_models.", "core/plan/planar_models."}},
+      {"hwy/",
+       {"core/contact/mechanism_lanes.", "core/models/", "core/numerics/", "core/plan/pendulum_models.",
+        "core/plan/planar_models."}},
       {"cvode/", {"core/models/finite_duration/integrator."}},
       {"nvector/", {"core/models/finite_duration/integrator."}},
       {"sundials/", {"core/models/finite_duration/integrator."}},
