@@ -206,8 +206,10 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
     const auto bytes = std::filesystem::file_size(data.file, unknown);
     if (!unknown) size = static_cast<int64_t>(bytes);
   }
-  absl::StatusOr<AuditTable> table = AuditTable::Open(is_standard ? std::cin : static_cast<std::istream&>(file),
-                                                      is_standard ? "standard input" : data.file, data.skipped_columns);
+  std::istream& stream = is_standard ? std::cin : static_cast<std::istream&>(file);
+  absl::StatusOr<AuditTable> table =
+      AuditTable::Open(stream, is_standard ? "standard input" : data.file, data.skipped_columns);
+  if (absl::Status read = CheckWholeRead(stream, data.file); !read.ok()) return read;
   if (!table.ok()) return table.status();
   if (data.uncertainty_m_s.has_value() && table->has_uncertainty()) {
     return absl::InvalidArgumentError("--uncertainty cannot be combined with a column velocity_uncertainty_m_s");
@@ -217,7 +219,10 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
   const Writer writer(options.format, scene, data.list);
   Auditor auditor(solver, scene, data, writer, *output);
   const bool has_rows = data.list || options.format != Format::kText;
-  return AuditAll(*table, size, data, has_rows && options.output.empty(), RowsOfACall(solver), auditor);
+  const absl::Status audited =
+      AuditAll(*table, size, data, has_rows && options.output.empty(), RowsOfACall(solver), auditor);
+  const absl::Status read = CheckWholeRead(stream, data.file);
+  return read.ok() ? audited : read;
 }
 
 }  // namespace ricochet::cli

@@ -37,7 +37,9 @@ absl::Status RunHealth(const HealthOptions& options) {
   if (!client_options.ok()) return client_options.status();
   const absl::StatusOr<Health> health = CheckHealth(*client_options, options.service);
   // A service that is missing may still be starting.
-  if (absl::IsNotFound(health.status())) return absl::UnavailableError(health.status().message());
+  if (absl::IsNotFound(health.status())) {
+    return absl::UnavailableError(absl::StrCat(options.service, ": ", health.status().message()));
+  }
   if (!health.ok()) return health.status();
   std::printf("%s\n", Name(*health));
   if (*health == Health::kServing) return absl::OkStatus();

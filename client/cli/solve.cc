@@ -196,7 +196,7 @@ void AddSolve(CLI::App& app, Command& command) {
   AddDemandOptions(*sub, options->demand);
   AddCertifiedOption(*sub, options->certified);
   sub->add_flag("--strict", options->strict,
-                "Fail if the outcome is inadmissible or a law has no solution; with --data, if that or an invalid row "
+                "Fail if the outcome is inadmissible or has no end; with --data, if that or an invalid row "
                 "occurs, after writing all");
   AddPictureOptions(*sub, "velocities and forces over impulse or time, and in space also the slip,", options->picture);
   MarkFile(FileUse::kWritten,

@@ -10,6 +10,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
 #include "client/cli/input/scene_input.h"
@@ -82,6 +83,11 @@ absl::Status NameColumns(const absl::Status& error, const std::vector<size_t>& c
     if (!absl::ConsumePrefix(&place, "fields[") || !absl::ConsumeSuffix(&place, "]")) continue;
     if (!absl::SimpleAtoi(place, &field) || field >= columns.size()) continue;
     violation.field = absl::StrCat("--data, column ", columns[field] + 1);
+    for (size_t i = 0; i < columns.size(); ++i) {
+      const std::string other = absl::StrCat("fields[", i, "]");
+      violation.description =
+          absl::StrReplaceAll(violation.description, {{other, absl::StrCat("column ", columns[i] + 1)}});
+    }
     absl::StrAppend(&violation.description, "; --skip-column leaves a column out");
   }
   return violations.empty() ? error : InvalidRequest(violations);

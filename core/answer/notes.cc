@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "core/base/decimal.h"
 #include "core/contact/delassus.h"
 #include "core/scene/numbers.h"
@@ -80,8 +81,44 @@ void AddIdleFrictionNote(Outcome& outcome) {
                   outcome);
 }
 
+// True if W comes from bodies or joints, so that its entries are rounded. A W that is stated is exact.
+bool HasRoundedW(const Scene& scene) {
+  return !std::holds_alternative<PlanarContact>(scene.system) && !std::holds_alternative<SpatialContact>(scene.system);
+}
+
+// True if the exact W has full rank: no joint takes anything from a body, but rounding may have made W singular.
+bool HasFreeBodies(const Scene& scene) {
+  return std::holds_alternative<PlanarBody>(scene.system) || std::holds_alternative<SpatialBody>(scene.system) ||
+         std::holds_alternative<BodyPair>(scene.system);
+}
+
+// The determinant of W over the product of its diagonal.
+double RelativeDeterminant(const spatial::Problem& of) {
+  const auto cosine = [](double entry, double a, double b) { return entry / (std::sqrt(a) * std::sqrt(b)); };
+  const double x = cosine(of.w12, of.w11, of.w22);
+  const double y = cosine(of.w13, of.w11, of.w33);
+  const double z = cosine(of.w23, of.w22, of.w33);
+  return 1.0 + 2.0 * x * y * z - x * x - y * y - z * z;
+}
+
+// Adds the note for a W whose rounding can change the answer: of a relative determinant d by some 16 eps/d of itself.
+// NaN, which a diagonal of 0 gives, has none.
+void AddRoundingNote(double determinant, const char* advice, Outcome& outcome) {
+  constexpr double kShows = 1e-9;
+  constexpr double kOfEntries = 0x1p-48;
+  const double effect = determinant > kOfEntries ? kOfEntries / determinant : 1.0;
+  if (!(effect > kShows) || std::isnan(determinant)) return;
+  AddUndetermined(
+      "contact_velocity_after",
+      absl::StrCat("W is so nearly singular that the rounding of its entries can change velocities and "
+                   "impulses by ",
+                   absl::StrFormat("%.1g", effect), " of themselves, which the stated errors leave out.", advice),
+      outcome);
+}
+
 // Adds notes on what the outcome cannot know. The problems have the coefficients that the model has used.
 struct AddUndeterminedOf {
+  const Scene& scene;
   Outcome& outcome;
 
   void operator()(std::monostate) const {}
@@ -91,11 +128,19 @@ struct AddUndeterminedOf {
   void operator()(const planar::Problem& problem) const {
     if (problem.v0 >= 0.0) return;
     AddJamNote(2, outcome);
+    const PlanarDelassus w = {.tt = problem.w.tt, .tn = problem.w.tn, .nn = problem.w.nn};
+    if (HasFreeBodies(scene) || (HasRoundedW(scene) && w.Rank() == 2)) {
+      AddRoundingNote(w.RelativeDeterminant(),
+                      " --certified, or certified_digits, gives digits that are proved for the scene.", outcome);
+    }
     if (problem.w.tt == 0.0 && problem.u0 == 0.0 && problem.mu_static > 0.0) AddIdleFrictionNote(outcome);
   }
   void operator()(const spatial::Problem& problem) const {
     if (problem.v0 >= 0.0) return;
     AddJamNote(3, outcome);
+    if (HasFreeBodies(scene) || (HasRoundedW(scene) && outcome.w_rank == 3)) {
+      AddRoundingNote(4.0 / 9.0 * RelativeDeterminant(problem), "", outcome);
+    }
     if (!(problem.mu_static > 0.0) || !IsAtRest(outcome.contact_velocity_after.tangential_m_s)) return;
     if (problem.w11 == 0.0 && problem.w22 == 0.0) return AddIdleFrictionNote(outcome);
     if (PlanarDelassus{.tt = problem.w11, .tn = problem.w12, .nn = problem.w22}.Rank() == 2) return;
@@ -115,7 +160,7 @@ void AddNotes(const Scene& scene, const PlannedScene& planned, Outcome& outcome)
   VisitNumbers(scene, [&outcome](const NumberPath& path, double value, NumberRule rule) {
     if (rule == NumberRule::kAngle && std::abs(value) > kFullTurn) outcome.notes.push_back(LargeAngle(path, value));
   });
-  if (planned.choice.model != Model::kImpactLaw) std::visit(AddUndeterminedOf{outcome}, planned.problem);
+  if (planned.choice.model != Model::kImpactLaw) std::visit(AddUndeterminedOf{scene, outcome}, planned.problem);
 }
 
 }  // namespace ricochet

@@ -57,7 +57,7 @@ std::string BrokenLimitText(const BrokenLimit& limit) {
 }
 
 // Gives FAILED_PRECONDITION that names the limits that an end of the impact breaks, if one breaks any, or that says
-// that the impact law has no solution.
+// that the impact law has no solution or that the impact was not followed to its end.
 absl::Status CheckAdmissible(const Outcome& outcome) {
   const auto refuse = [](std::string message, const std::vector<BrokenLimit>& broken_limits) {
     for (const BrokenLimit& limit : broken_limits) message += BrokenLimitText(limit);
@@ -65,6 +65,10 @@ absl::Status CheckAdmissible(const Outcome& outcome) {
     return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
   };
   if (outcome.regime == Regime::kNoSolution) return refuse("the impact law has no solution for this contact;", {});
+  if (outcome.termination == Termination::kBudgetUsedUp) {
+    return refuse("the model's budget of steps ran out before the contact separated;", {});
+  }
+  if (outcome.termination == Termination::kRefused) return refuse("the contact has no end that is known;", {});
   if (!outcome.admissible) return refuse("the outcome is inadmissible:", outcome.broken_limits);
   if (!outcome.free_end.has_value() || outcome.free_end->admissible) return absl::OkStatus();
   return refuse("the outcome with no coordinate held is inadmissible:", outcome.free_end->broken_limits);

@@ -1,10 +1,12 @@
 // The module ricochet._core: the functions of the package, computed in this process or by a server that is named.
 
 #include <google/protobuf/descriptor.h>
+#include <grpc/support/log.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -157,6 +159,8 @@ void AddSolver(py::module_& module) {
 
 PYBIND11_MODULE(_core, module) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  // Errors are exceptions. What gRPC writes to standard error is for those who ask for it.
+  if (std::getenv("GRPC_VERBOSITY") == nullptr) gpr_set_log_function([](gpr_log_func_args* /*line*/) {});
   using namespace ricochet::python;  // NOLINT(google-build-using-namespace): the module is theirs.
   AddScene(module);
   AddSolver(module);

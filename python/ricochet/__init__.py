@@ -18,11 +18,12 @@ from __future__ import annotations
 
 from ricochet._core import Scene
 from ricochet.axes import Axis, Linspace, Logspace
-from ricochet.client import Client, InvalidRows, ModuleClient, Progress, SceneLike
+from ricochet.client import Client, InvalidRows, ModuleClient, NoEnd, Progress, SceneLike
 from ricochet.errors import (
     Inadmissible,
     InvalidRequest,
     LimitReached,
+    NotAllowed,
     OutOfRange,
     RicochetError,
     TimedOut,
@@ -47,6 +48,8 @@ __all__ = [
     "LimitReached",
     "Linspace",
     "Logspace",
+    "NoEnd",
+    "NotAllowed",
     "OutOfRange",
     "Progress",
     "Record",

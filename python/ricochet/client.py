@@ -46,6 +46,10 @@ class InvalidRows(UserWarning):
     """Rows of an answer have no numbers, because they break a rule; the text says how many, and the first of them."""
 
 
+class NoEnd(UserWarning):
+    """Some impacts have no end that is known, so that there are no velocities after them."""
+
+
 class Client:
     """Computes in this process, or asks the server that is named. Both give the same answers, bit by bit.
 
@@ -175,6 +179,9 @@ class Client:
             InvalidRequest: the scene breaks a rule.
             RicochetError: the call failed otherwise.
         """
+        if derivatives is not None:
+            scene = Scene(scene)
+            derivatives = _full_paths(derivatives, {"of": scene._columns(), "by": scene._fields()})
         return self._solver.solve(
             scene, tolerance, require, exclude, strict, history, force_history, certified, both_ends, derivatives)
 
@@ -184,7 +191,7 @@ class Client:
         """Computes how fast numbers of an outcome change with numbers of its scene.
 
         Derivatives of rigid impacts in a plane are exact to rounding; others have an estimated error, which
-        ``solve(scene, derivatives={"of": of, "by": by})`` gives, with full names.
+        ``solve(scene, derivatives={"of": of, "by": by})`` gives.
 
         Args:
             scene: as in ``solve``.
@@ -206,10 +213,7 @@ class Client:
         if side not in _SIDES:
             values.refuse("side", f"= {side!r}: must be one of {', '.join(_SIDES)}")
         scene = Scene(scene)
-        paths = {
-            "of": names.full_names(values.names(of, "of"), scene._columns(), "of"),
-            "by": names.full_names(values.names(by, "by"), scene._fields(), "by"),
-        }
+        paths = _full_paths({"of": of, "by": by}, {"of": scene._columns(), "by": scene._fields()})
         derivatives = self.solve(scene, derivatives=paths).derivatives
         numbers = [each[_SIDES[side]] for each in derivatives]
         return np.array(numbers, dtype=np.float64).reshape(len(paths["of"]), len(paths["by"]))
@@ -257,7 +261,8 @@ class Client:
         scene = Scene(scene)
         named = names.by_full_name(ranges or {}, scene._fields(), "ranges")
         listed = tuple(_range(path, ends) for path, ends in named.items())
-        arguments = {"ranges": listed, "certified": certified, "derivatives": derivatives}
+        paths = None if derivatives is None else _full_paths(derivatives, {"by": scene._fields()})
+        arguments = {"ranges": listed, "certified": certified, "derivatives": paths}
         return self._solver.bounds(scene, arguments)
 
     def audit(
@@ -622,7 +627,9 @@ class Client:
         Returns:
             ``rates_after``, the generalised velocities after the impact, and ``impulse_n_s`` on the mechanism in world
             axes, N s, as arrays; ``answer`` is the outcome of a single state, which has errors of all numbers, or the
-            table of a batch in the contact frame. A state that breaks a rule has NaN in a batch.
+            table of a batch in the contact frame. A state that breaks a rule has NaN in a batch. One whose impact has
+            no end that is known, because friction and what is held keep the contact from parting, has NaN too, and a
+            warning ``NoEnd`` says so; ``answer`` has the state that was reached.
 
         Raises:
             InvalidRequest: the shapes do not fit, or a single state breaks a rule.
@@ -641,14 +648,17 @@ class Client:
         if not states.is_batch and not several:
             parts = {"friction": {"kinetic_coefficient": friction}, "restitution": restitution}
             outcome = self.solve({**states.scene(0), **parts}, tolerance=tolerance)
-            return AtContact(np.array(outcome.rates_after), states.in_world(outcome), outcome)
+            rates, impulse = _without_ends(
+                np.array(outcome.rates_after), states.in_world(outcome), np.array(outcome.accuracy.relative_error))
+            return AtContact(rates, impulse, outcome)
         inputs = {"friction.kinetic_coefficient": friction, **states.columns}
         inputs.update({f"restitution.{name}": value for name, value in restitution.items()})
         table = self._batch(mechanisms.CONTACT, inputs, mechanisms.COLUMNS, {"tolerance": tolerance})
         for bad in table.summary.bad_rows:
             states.explain(bad)
         _warn_of_invalid(table)
-        return AtContact(*states.after(table), table)
+        rates, impulse = _without_ends(*states.after(table), table.columns["accuracy.relative_error"])
+        return AtContact(rates, impulse, table)
 
     def info(self) -> Record:
         """Returns which engine answers, what it can compute, and its limits, as ricochet.v1.InfoResponse has them."""
@@ -721,6 +731,33 @@ def _index_of(given: Any, columns: Mapping[str, Any], rows: int) -> Any:
     return indices[0] if indices else None
 
 
+def _full_paths(derivatives: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, Any]:
+    """Returns what is asked of derivatives, with the full names of those numbers whose names are known."""
+    return {key: names.full_names(values.names(value, key), known[key], key) if key in known else value
+            for key, value in derivatives.items()}
+
+
+def _without_ends(rates: values.Numbers, impulse: values.Numbers, errors: values.Numbers) -> tuple[
+    values.Numbers, values.Numbers]:
+    """Returns the arrays with NaN for the states whose impact has no end, which have an infinite error."""
+    has_no_end = np.isinf(errors)
+    count = int(np.count_nonzero(has_no_end))
+    if count == 0:
+        return rates, impulse
+    warnings.warn(f"impacts without an end that is known, which have NaN: {count} of {errors.size}; friction and what "
+                  "is held keep the contact from parting", NoEnd, stacklevel=_depth_of_caller())
+    unknown = has_no_end[..., None]
+    return np.where(unknown, np.nan, rates), np.where(unknown, np.nan, impulse)
+
+
+def _depth_of_caller() -> int:
+    """Returns the stack level, for ``warnings.warn`` in the function that asks, of the line outside of this package."""
+    depth, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").split(".")[0] == "ricochet":
+        depth, frame = depth + 1, frame.f_back
+    return depth
+
+
 def _warn_of_invalid(table: Table) -> None:
     """Warns of rows without numbers, at the line that has asked for them."""
     if not table.summary.invalid:
@@ -731,12 +768,9 @@ def _warn_of_invalid(table: Table) -> None:
     else:
         first = int(np.flatnonzero(np.isin(table.codes["status"].numbers, _WITHOUT_NUMBERS))[0])
         why = ", ".join(f"{name} = {value:.6g}" for name, value in table.inputs_of(first).items())
-    depth, frame = 1, sys._getframe(1)
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").split(".")[0] == "ricochet":
-        depth, frame = depth + 1, frame.f_back
     text = (f"rows that break a rule and have NaN: {table.summary.invalid} of {len(table)}; "
             f"the first is row {first}: {why}")
-    warnings.warn(text, InvalidRows, stacklevel=depth + 1)
+    warnings.warn(text, InvalidRows, stacklevel=_depth_of_caller())
 
 
 def _row_count(lengths: list[int]) -> int:

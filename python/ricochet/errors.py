@@ -70,6 +70,10 @@ class LimitReached(RicochetError):
     """The request is larger, or the server busier, than a limit allows."""
 
 
+class NotAllowed(RicochetError, PermissionError):
+    """The server does not know the caller, or the caller may not call this method."""
+
+
 class Unavailable(RicochetError, ConnectionError):
     """No server answers, or it is about to stop."""
 
@@ -97,6 +101,8 @@ _CLASSES: dict[str, type[RicochetError]] = {
     "INVALID_ARGUMENT": InvalidRequest,
     "OUT_OF_RANGE": OutOfRange,
     "RESOURCE_EXHAUSTED": LimitReached,
+    "UNAUTHENTICATED": NotAllowed,
+    "PERMISSION_DENIED": NotAllowed,
     "UNAVAILABLE": Unavailable,
     "DEADLINE_EXCEEDED": TimedOut,
 }

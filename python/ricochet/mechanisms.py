@@ -64,7 +64,8 @@ class States:
     def __init__(self, M: ArrayLike, J: ArrayLike, qdot: ArrayLike, normal: ArrayLike, held: Any) -> None:
         given = {name: column(value, name) for name, value in
                  (("M", M), ("J", J), ("qdot", qdot), ("normal", normal))}
-        n = given["qdot"].shape[-1] if given["qdot"].ndim else 0
+        sizes = [given[name].shape[-1] if given[name].ndim else 0 for name in ("M", "J", "qdot")]
+        n = max(sizes, key=sizes.count)  # What most of them say, so that the other one is named.
         shapes = {"M": (n, n), "J": (3, n), "qdot": (n,), "normal": (3,)}
         lead = {array.shape[:-len(shapes[name])] for name, array in given.items()} - {()}
         several = lead - {(1,)}
@@ -80,6 +81,9 @@ class States:
         if not wrong and not self.is_batch and not _has_direction(given["normal"]):
             wrong.append(_NO_DIRECTION)
         listed = held if is_list(held) else [held]
+        if any(isinstance(entry, (bool, np.bool_)) for entry in listed):
+            raise InvalidRequest.of([Violation("held", "has truth values: must have the numbers of coordinates, from 0; "
+                                               "np.flatnonzero makes them of a mask")])
         self.held = [int(scalar("int32", entry, f"held[{i}]")) for i, entry in enumerate(listed)]
         wrong += [Violation(f"held[{i}]", f"= {entry}: must be in [0, {n})")
                   for i, entry in enumerate(self.held) if not 0 <= entry < n]

@@ -131,13 +131,39 @@ class SingleStates(Case):
         for speed in (1e-200, 1e-160, 1e150):
             np.testing.assert_allclose(call(direction, speed * rates), speed * expected, rtol=1e-14)
 
+    def test_a_contact_that_cannot_part_has_no_velocities_after(self):
+        """Friction and the held joint wedge the contact, whose velocity nothing reverses."""
+        wedge = {"M": np.eye(2), "J": [[1, 0], [0, 0], [0.3, 1]], "qdot": [0, -1], "normal": [0, 0, 1],
+                 "friction": 1, "energetic": 0.5, "held": [1]}
+        for lead in ((), (2,)):
+            with self.subTest(lead), self.assertWarnsRegex(ricochet.NoEnd, "1 of 1|2 of 2"):
+                after = ricochet.at_contact(**{**wedge, "qdot": np.broadcast_to([0.0, -1.0], (*lead, 2))})
+            self.assertTrue(np.isnan(after.rates_after).all() and np.isnan(after.impulse_n_s).all())
+            self.assertEqual(after.rates_after.shape, (*lead, 2))
+        with self.assertRaises(ricochet.Inadmissible):
+            ricochet.solve({"mechanism": {"mass_matrix": np.eye(2), "jacobian": wedge["J"], "rates": [0, -1],
+                                          "kept_coordinates": [1]},
+                            "friction": {"kinetic_coefficient": 1}, "restitution": {"energetic": 0.5}}, strict=True)
+
+    def test_a_contact_that_locks_in_space_has_the_error_of_rounding(self):
+        for law in ("newton", "poisson", "energetic"):
+            for coefficient in (0, 0.5, 1):
+                with self.subTest(law=law, coefficient=coefficient):
+                    after = ricochet.at_contact([[1.0]], [[1.0], [0], [0.3]], [-1.0], [0, 0, 1], friction=1,
+                                                **{law: coefficient})
+                    self.assertEqual(after.answer.regime, "LOCKED")
+                    np.testing.assert_allclose(after.rates_after, 0, atol=1e-15)
+                    self.assertLess(after.answer.accuracy.relative_error, 1e-7)
+
     def test_what_is_wrong_is_named(self):
         good = {"M": np.eye(3), "J": np.eye(3), "qdot": [0, 0, -1], "normal": [0, 0, 1]}
         call = lambda **wrong: ricochet.at_contact(**{**good, **wrong}, newton=0.5)
         self.refused(lambda: call(M=np.eye(2)), "M")
         self.refused(lambda: call(J=np.eye(3)[:2], normal=[0, 1]), "J", "normal")
         self.refused(lambda: call(normal=[0, 0, 0]), "normal")
-        self.refused(lambda: call(qdot=3), "M", "J", "qdot")
+        self.refused(lambda: call(qdot=3), "qdot")
+        self.refused(lambda: call(qdot=[[0], [0], [-1]]), "qdot")
+        self.refused(lambda: call(held=[True, False, False]), "held")
         self.refused(lambda: call(qdot=[0, 0, "x"]), "qdot[2]")
         self.refused(lambda: call(M=np.ones((4, 3, 3)), J=np.ones((5, 3, 3))), "M")
         with self.assertRaisesRegex(ricochet.InvalidRequest, r"shapes M \(4, 3, 3\), J \(5, 3, 3\), qdot \(3,\)"):

@@ -47,7 +47,7 @@ std::string PageOf(const std::string& more, const std::string& nonce) {
 // Returns what the regime, the termination and each event of an outcome mean, as a list of sentences.
 std::string WordsJson(const Outcome& outcome) {
   std::string text = "[";
-  AppendJson(RegimeSentence(outcome.regime), text);
+  AppendJson(WhatHappens(outcome), text);
   AppendJson(TerminationText(outcome.termination), text += ",");
   for (const Event& event : outcome.timeline) AppendJson(EventText(event.kind), text += ",");
   return text + "]";

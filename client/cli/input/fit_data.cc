@@ -70,6 +70,9 @@ absl::Status ReadRow(const CsvReader& reader, const std::vector<std::string>& ce
     double value = std::numeric_limits<double>::quiet_NaN();
     const std::string& cell = cells[i];
     const std::string rule = cell.empty() ? "" : ReadNumber(cell, SpellingOf(columns[i]->path), value);
+    if (rule.empty() && !cell.empty() && std::isnan(value)) {
+      return wrong(reader.header()[i], "= nan: must be finite; what was not measured has an empty cell");
+    }
     if (!rule.empty()) return wrong(reader.header()[i], absl::StrCat("= \"", absl::CEscape(cell), "\": must ", rule));
     if (cell.empty() && columns[i]->use == Column::Use::kInput) return wrong(reader.header()[i], "is missing");
     columns[i]->values.push_back(value);

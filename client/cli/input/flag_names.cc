@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "client/cli/input/connection_input.h"
 #include "client/cli/input/scene_input.h"
 #include "ricochet/error.h"
@@ -34,14 +37,35 @@ constexpr std::pair<const char*, const char*> kRequestFlags[] = {{"relative_tole
                                                                  {"velocity_uncertainty_m_s", "--uncertainty"},
                                                                  {"states[", "--state"},
                                                                  {"outputs[", "--function"},
+                                                                 {"axes[", "--axis"},
+                                                                 {"ranges[", "--range"},
+                                                                 {"columns[", "--column"},
+                                                                 {"derivatives.of[", "--derivatives"},
+                                                                 {"derivatives.by[", "--by"},
+                                                                 {"unknowns[", "--unknown"},
+                                                                 {"loss", "--loss"},
+                                                                 {"force_intervals", "--force-history"},
+                                                                 {"both_ends", "--both-ends"},
+                                                                 {"rates", "--observed-rate"},
                                                                  {"stiffness_range.", "--stiffness-ratio"},
                                                                  {"contact_velocity.", "--observed-velocity"}};
+
+// Returns the flag as it was given, with its text if the path says which of several texts is meant: for "axes[1].list"
+// that is the second, "--axis mu=0,1".
+std::string AsGiven(const CLI::App& command, const std::string& flag, const std::string& beginning,
+                    absl::string_view path) {
+  const std::vector<std::string> texts = command.get_option(flag)->results();
+  size_t place = 0;
+  const bool is_one_of_several = absl::EndsWith(beginning, "[") && absl::ConsumePrefix(&path, beginning) &&
+                                 absl::SimpleAtoi(path.substr(0, path.find(']')), &place);
+  return is_one_of_several && place < texts.size() ? absl::StrCat(flag, " ", texts[place]) : flag;
+}
 
 void NameFlag(const CLI::App& command, Violation& violation) {
   const std::string field = violation.field;
   for (const auto& [beginning, flag] : kRequestFlags) {
     if (!absl::StartsWith(field, beginning) || !IsGiven(command, flag)) continue;
-    violation.field = absl::StrCat(flag, ": ", field);
+    violation.field = absl::StrCat(AsGiven(command, flag, beginning, field), ": ", field);
     return;
   }
   if (const std::string flag = FlagOfConnection(field); !flag.empty())

@@ -2,13 +2,13 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
-#include <sstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -212,14 +212,24 @@ absl::Status ReadAnyScene(const SceneOptions& options, std::variant<Scene, Multi
 }
 
 static absl::StatusOr<std::string> ReadBytes(const std::string& path) {
-  if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
-  absl::StatusOr<std::ifstream> file = OpenToRead(path);
-  if (!file.ok()) return file.status();
-  std::ostringstream text;
-  text << file->rdbuf();
-  // An empty file sets the failbit of `text` but not that of `file`.
-  if (!*file) return CannotRead(path, errno);
-  return text.str();
+  if (path != "-") {
+    absl::StatusOr<std::ifstream> file = OpenToRead(path);
+    if (!file.ok()) return file.status();
+  }
+  std::FILE* const file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
+  if (file == nullptr) return CannotRead(path, errno);
+  std::string text;
+  std::array<char, 65536> part = {};
+  while (const size_t count = std::fread(part.data(), 1, part.size(), file)) text.append(part.data(), count);
+  const int error = std::ferror(file) != 0 ? errno : 0;
+  if (file != stdin) (void)std::fclose(file);
+  if (error != 0) return CannotRead(NameOf(path), error);
+  return text;
+}
+
+absl::Status CheckWholeRead(const std::istream& stream, const std::string& path) {
+  const bool is_whole = &stream == &std::cin ? std::ferror(stdin) == 0 : !stream.bad();
+  return is_whole ? absl::OkStatus() : CannotRead(NameOf(path), EIO);
 }
 
 absl::StatusOr<std::ifstream> OpenToRead(const std::string& path) {
@@ -232,7 +242,11 @@ absl::StatusOr<std::ifstream> OpenToRead(const std::string& path) {
 
 absl::StatusOr<std::string> ReadText(const std::string& path) {
   absl::StatusOr<std::string> text = ReadBytes(path);
-  if (text.ok() && absl::StartsWith(*text, kByteOrderMark)) text->erase(0, sizeof(kByteOrderMark) - 1);
+  if (!text.ok()) return text;
+  if (absl::StartsWith(*text, "\xFF\xFE") || absl::StartsWith(*text, "\xFE\xFF")) {
+    return absl::InvalidArgumentError(absl::StrCat(NameOf(path), " is in UTF-16: must be in UTF-8"));
+  }
+  if (absl::StartsWith(*text, kByteOrderMark)) text->erase(0, sizeof(kByteOrderMark) - 1);
   return text;
 }
 

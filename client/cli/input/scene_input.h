@@ -73,6 +73,10 @@ absl::StatusOr<std::string> ReadText(const std::string& path);
 // Opens a file that is no directory. Errors: INVALID_ARGUMENT that names the file.
 absl::StatusOr<std::ifstream> OpenToRead(const std::string& path);
 
+// Returns an error that names the path if the stream, which is that of the file or standard input, ended because it
+// could not be read.
+absl::Status CheckWholeRead(const std::istream& stream, const std::string& path);
+
 // Reads a message of any type from a file, or from standard input for "-" (proto/text/message_text.h).
 // Errors: INVALID_ARGUMENT that names the file, and the line if the parser tells it.
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message);

@@ -159,6 +159,7 @@ CsvRow AuditCsvRow(const AuditReport& report, size_t directions) {
   for (const LimitName& name : kLimits) {
     const LimitCheck& check = report[name.limit];
     truth(absl::StrCat("limits.", name.column, ".broken"), check.verdict == Verdict::kBroken);
+    truth(absl::StrCat("limits.", name.column, ".within_uncertainty"), check.verdict == Verdict::kWithinUncertainty);
     number(absl::StrCat("limits.", name.column, ".excess"), check.excess);
     number(absl::StrCat("limits.", name.column, ".allowance"), check.allowance);
   }

@@ -200,15 +200,15 @@ std::vector<bool> OnFront(const CostChunk& study) {
 
 std::string CostText(const CostChunk& study) {
   const CostSummary& summary = *study.summary;
-  return absl::StrCat(
-      Wrapped(absl::StrCat(study.rows.size(), " methods for one impact. The exact answer: ", summary.reference_source,
-                           ".")),
-      "\n", MethodsText(study), "\n",
-      summary.front.empty() ? "" : "* on the Pareto front: none is as fast and as exact. ",
-      "Errors are fractions of the velocity before.\n\n", PicksText(study), NotesText(study), Wrapped(TrustText(study)),
-      Wrapped(absl::StrCat(MachineText(summary.machine), "; ricochet ", study.engine.version, ", engine ",
-                           study.engine.fingerprint)),
-      "Measured in ", absl::StrFormat("%.2g", summary.elapsed_s), " s\n");
+  return absl::StrCat(Wrapped(absl::StrCat(study.rows.size(), study.rows.size() == 1 ? " method" : " methods",
+                                           " for one impact. The exact answer: ", summary.reference_source, ".")),
+                      "\n", MethodsText(study), "\n",
+                      summary.front.empty() ? "" : "* on the Pareto front: none is as fast and as exact. ",
+                      "Errors are fractions of the velocity before.\n\n", PicksText(study), NotesText(study),
+                      Wrapped(TrustText(study)),
+                      Wrapped(absl::StrCat(MachineText(summary.machine), "; ricochet ", study.engine.version,
+                                           ", engine ", study.engine.fingerprint)),
+                      "Measured in ", absl::StrFormat("%.2g", summary.elapsed_s), " s\n");
 }
 
 std::string CostCsv(const CostChunk& study) {

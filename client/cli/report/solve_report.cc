@@ -36,8 +36,46 @@ const char* LimitText(LimitKind kind) {
   return "?";
 }
 
+const char* RegimeSentence(Regime regime) {
+  switch (regime) {
+    case Regime::kFrictionless:
+      return "Frictionless: friction does not couple normal and tangential motion.";
+    case Regime::kRebound:
+      return "Rebound: slip reverses at the end of compression, and the contact separates.";
+    case Regime::kSliding:
+      return "Sliding: slip never stops.";
+    case Regime::kStickInCompression:
+      return "Slip stops in compression and the contact sticks.";
+    case Regime::kStickInRestitution:
+      return "Slip stops in restitution and the contact sticks.";
+    case Regime::kReversalInCompression:
+      return "Slip reverses in compression.";
+    case Regime::kReversalInRestitution:
+      return "Slip reverses in restitution.";
+    case Regime::kLocked:
+      return "Locked: friction and the pin hold the body; it does not rebound.";
+    case Regime::kWedged:
+      return "Wedged: the contact had not separated when the computation ended.";
+    case Regime::kSeparating:
+      return "Separating: the contact does not approach; nothing changes.";
+    case Regime::kByLaw:
+      return "Impact law: it gives the end of the impact, but not its phases.";
+    case Regime::kNoSolution:
+      return "No solution: the impact law has no solution for this contact.";
+    case Regime::kUnspecified:
+    case Regime::kInvalid:
+      break;
+  }
+  return "Unknown: the server answered with a regime that this build does not know.";
+}
+
+bool HasEnd(const Outcome& outcome) {
+  return outcome.termination != Termination::kBudgetUsedUp && outcome.termination != Termination::kRefused;
+}
+
 std::string Verdict(const Outcome& outcome) {
-  if (outcome.regime == Regime::kNoSolution) return "";  // There is no outcome to judge.
+  // There is no outcome to judge.
+  if (!HasEnd(outcome)) return "";
   if (outcome.admissible) return "Admissible.\n";
   const bool friction_alone =
       outcome.broken_limits.size() == 1 && outcome.broken_limits.front().kind == LimitKind::kFriction;
@@ -57,6 +95,7 @@ std::string CoefficientsText(const Outcome& outcome) {
   const EffectiveCoefficients& effective = outcome.effective;
   // Nothing strikes, so that no ratio of after and before means anything. Outcomes have 0 there.
   if (outcome.regime == Regime::kSeparating) return "Coefficients\n  none: nothing strikes\n";
+  if (!HasEnd(outcome)) return "Coefficients\n  none: the impact has no end that is known\n";
   Table table;
   table.Add({"Newton      (velocities, -v+/v-)", Rounded(coefficients.newton)});
   table.Add({"Poisson     (normal impulses)", IfKnown(coefficients.poisson)});
@@ -348,39 +387,6 @@ const char* TerminationText(Termination termination) {
   return "";
 }
 
-const char* RegimeSentence(Regime regime) {
-  switch (regime) {
-    case Regime::kFrictionless:
-      return "Frictionless: friction does not couple normal and tangential motion.";
-    case Regime::kRebound:
-      return "Rebound: slip reverses at the end of compression, and the contact separates.";
-    case Regime::kSliding:
-      return "Sliding: slip never stops.";
-    case Regime::kStickInCompression:
-      return "Slip stops in compression and the contact sticks.";
-    case Regime::kStickInRestitution:
-      return "Slip stops in restitution and the contact sticks.";
-    case Regime::kReversalInCompression:
-      return "Slip reverses in compression.";
-    case Regime::kReversalInRestitution:
-      return "Slip reverses in restitution.";
-    case Regime::kLocked:
-      return "Locked: friction and the pin hold the body; it does not rebound.";
-    case Regime::kWedged:
-      return "Wedged: the contact had not separated when the computation ended.";
-    case Regime::kSeparating:
-      return "Separating: the contact does not approach; nothing changes.";
-    case Regime::kByLaw:
-      return "Impact law: it gives the end of the impact, but not its phases.";
-    case Regime::kNoSolution:
-      return "No solution: the impact law has no solution for this contact.";
-    case Regime::kUnspecified:
-    case Regime::kInvalid:
-      break;
-  }
-  return "Unknown: the server answered with a regime that this build does not know.";
-}
-
 const char* EventText(EventKind kind) {
   switch (kind) {
     case EventKind::kStart:
@@ -401,8 +407,15 @@ const char* EventText(EventKind kind) {
   return "?";
 }
 
+std::string WhatHappens(const Outcome& outcome) {
+  // On a tangential spring the contact moves on after it has stuck.
+  const bool on_spring = outcome.plan.model == Model::kCompliant && (outcome.regime == Regime::kStickInCompression ||
+                                                                     outcome.regime == Regime::kStickInRestitution);
+  return absl::StrCat(RegimeSentence(outcome.regime), on_spring ? " Its tangential spring moves it on." : "");
+}
+
 std::string SolveText(const Outcome& outcome) {
-  std::string text = absl::StrCat(RegimeSentence(outcome.regime), "\n", LineOf(TerminationText(outcome.termination)),
+  std::string text = absl::StrCat(WhatHappens(outcome), "\n", LineOf(TerminationText(outcome.termination)),
                                   Verdict(outcome), NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n",
                                   MotionText(outcome), BodiesText(outcome.bodies_after), CoordinatesText(outcome), "\n",
                                   ImpulseText(outcome.impulse), "\n", WorkText(outcome));

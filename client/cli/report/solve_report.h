@@ -9,8 +9,8 @@
 
 namespace ricochet::cli {
 
-// Returns what the contact does, as a sentence.
-const char* RegimeSentence(Regime regime);
+// Returns what the contact does, in a sentence or two.
+std::string WhatHappens(const Outcome& outcome);
 
 // Says in a sentence why the outcome is not an answer; empty if it is one.
 const char* TerminationText(Termination termination);

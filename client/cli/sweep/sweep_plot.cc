@@ -267,7 +267,9 @@ bool JamIsZero(const SweepTable& table, const Values& values) {
 absl::StatusOr<Plot> MapsOf(const SweepTable& table, const std::vector<double>& xs, const std::vector<double>& ys) {
   const size_t cells = table.points() * table.columns.size();
   if (cells > kMostCells) {
-    return absl::FailedPreconditionError(absl::StrCat(cells, " cells are more than a map can show (", kMostCells, ")"));
+    return absl::FailedPreconditionError(absl::StrCat(cells, " cells are more than a map can show: must be at most ",
+                                                      kMostCells,
+                                                      ", such as 500 x 500; a sweep with fewer values shows the same"));
   }
   const Label x = LabelIn(table, table.axes[1]);
   const Label y = LabelIn(table, table.axes[0]);

@@ -50,7 +50,7 @@ struct SolveRequest {
   // If > 0, Outcome::history has the states at the ends of this many equal steps of tau from 0 to tau1, at most
   // kMostIntervals. It excludes history_at_n_s, whose scenes it takes.
   int64_t history_intervals = 0;
-  // If true, an outcome with admissible = false, or an impact law without a solution, becomes FAILED_PRECONDITION.
+  // If true, admissible = false and the terminations kBudgetUsedUp and kRefused become FAILED_PRECONDITION.
   bool inadmissible_is_error = false;
   DemandFields demand = {};
   // If > 0, ContactDuration::history has the forces at this many equal steps of time, at most kMostIntervals. This

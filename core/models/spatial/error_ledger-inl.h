@@ -259,6 +259,7 @@ template <typename T>
 T ErrorLedger<T>::ImpulseErrorOfEnd(const Path<T>& path, const Slopes<T>& slopes, T velocity_error, T work_error,
                                     const Compression& compression) const {
   const T coefficient = problem_.coefficient;
+  if (path.regime == Regime::kLocked) return T{0};  // At rest it does not matter which impulse has led there.
   if (coefficient == T{0}) return compression.impulse;
   switch (path.goal.quantity) {
     case Quantity::kVelocity:
@@ -337,8 +338,9 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
   const T known_v = std::fabs(sum_.known.NormalVelocity(w) + slopes.v * known_impulse);
   EndErrors<T> errors = at_compression_end_;
   errors.u = kSafety * known_u + RestOfU() + problem_.graze * impulse * u_slope;
-  // A v that ends the impact has its error from root finding alone.
-  const bool v_is_goal = problem_.coefficient == T{0} || (path.goal.quantity == Quantity::kVelocity && !v_is_turned);
+  // A v that ends the impact has its error from root finding alone. Where friction locks the contact, v ends nothing.
+  const bool v_is_goal = path.regime != Regime::kLocked &&
+                         (problem_.coefficient == T{0} || (path.goal.quantity == Quantity::kVelocity && !v_is_turned));
   errors.v = v_is_goal ? event_distance_ * v_slope : kSafety * known_v + v_error_of_state + impulse * v_slope;
   // Compression may have ended beyond a small velocity that Newton's law asks for.
   if (v_is_goal && problem_.coefficient > T{0}) {
