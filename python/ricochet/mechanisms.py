@@ -82,8 +82,8 @@ class States:
             wrong.append(_NO_DIRECTION)
         listed = held if is_list(held) else [held]
         if any(isinstance(entry, (bool, np.bool_)) for entry in listed):
-            raise InvalidRequest.of([Violation("held", "has truth values: must have the numbers of coordinates, from 0; "
-                                               "np.flatnonzero makes them of a mask")])
+            rule = "has truth values: must have the numbers of coordinates, from 0; np.flatnonzero makes them of a mask"
+            raise InvalidRequest.of([Violation("held", rule)])
         self.held = [int(scalar("int32", entry, f"held[{i}]")) for i, entry in enumerate(listed)]
         wrong += [Violation(f"held[{i}]", f"= {entry}: must be in [0, {n})")
                   for i, entry in enumerate(self.held) if not 0 <= entry < n]

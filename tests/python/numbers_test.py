@@ -2,6 +2,7 @@
 
 import math
 import pickle
+import re
 import tempfile
 import unittest
 import warnings
@@ -308,6 +309,42 @@ class Jacobians(unittest.TestCase):
             with self.subTest(text), self.assertRaises(ricochet.InvalidRequest) as caught:
                 ricochet.jacobian(scene, of, "mu", side=side)
             self.assertIn(text, str(caught.exception))
+
+
+class RoundingOfW(unittest.TestCase):
+    """A W that rounding has changed is told, by a bound on what it does to the answer, against certified digits."""
+
+    @staticmethod
+    def random_body(random, decades):
+        def size():
+            return 10 ** random.uniform(-decades, decades)
+
+        def number():
+            return size() * random.choice([-1, 1])
+        return {"planar_body": {"mass_kg": size(), "inertia_com_kg_m2": size(), "offset_t_m": number(),
+                                "offset_n_m": number(), "velocity_t_m_s": number(), "velocity_n_m_s": number(),
+                                "rate_rad_s": number()},
+                "friction": {"kinetic_coefficient": size()}, "restitution": {"energetic": random.uniform(0, 1)}}
+
+    def test_a_note_bounds_what_it_changes_and_without_one_it_changes_nothing_that_shows(self):
+        random, notes, largest = np.random.default_rng(1), 0, 0
+        for _ in range(600):
+            outcome = ricochet.solve(self.random_body(random, random.choice([2, 4, 5])), certified=15)
+            if outcome.regime == "SEPARATING":
+                continue
+            digits = {number.path: number.decimal for number in outcome.certificate.numbers}
+            exact = float(digits["impulse.normal_total_n_s"])
+            error = abs(outcome.impulse.normal_total_n_s / exact - 1)
+            effects = [float(found[1]) for note in outcome.notes
+                       if (found := re.search("nearly singular .* by (.*) of themselves", note.text))]
+            self.assertLessEqual(error, effects[0] if effects else 1e-9)
+            notes, largest = notes + len(effects), max(largest, error)
+        self.assertGreater(notes, 10)
+        self.assertGreater(largest, 1e-9)
+
+    def test_a_stated_w_is_exact(self):
+        nearly = {"w_tt_per_kg": 1, "w_tn_per_kg": 1 - 1e-13, "w_nn_per_kg": 1, "normal_m_s": -1}
+        self.assertEqual(len(ricochet.solve({"planar_contact": nearly, "restitution": {"energetic": 0.5}}).notes), 0)
 
 
 if __name__ == "__main__":
