@@ -81,15 +81,14 @@ void AddIdleFrictionNote(Outcome& outcome) {
                   outcome);
 }
 
-// True if W comes from bodies or joints, so that its entries are rounded. A W that is stated is exact.
-bool HasRoundedW(const Scene& scene) {
-  return !std::holds_alternative<PlanarContact>(scene.system) && !std::holds_alternative<SpatialContact>(scene.system);
-}
-
-// True if the exact W has full rank: no joint takes anything from a body, but rounding may have made W singular.
-bool HasFreeBodies(const Scene& scene) {
-  return std::holds_alternative<PlanarBody>(scene.system) || std::holds_alternative<SpatialBody>(scene.system) ||
-         std::holds_alternative<BodyPair>(scene.system);
+// True if the exact W has full rank and the one at hand is rounded. Free bodies have such a W, though rounding may have
+// made it singular; where joints take a rank away, it is exact. A W that is stated is exact, too.
+bool IsRoundedOfFullRank(const Scene& scene, int full_rank, const Outcome& outcome) {
+  const System& system = scene.system;
+  if (std::holds_alternative<PlanarContact>(system) || std::holds_alternative<SpatialContact>(system)) return false;
+  const bool is_free = std::holds_alternative<PlanarBody>(system) || std::holds_alternative<SpatialBody>(system) ||
+                       std::holds_alternative<BodyPair>(system);
+  return is_free || outcome.w_rank == full_rank;
 }
 
 // The determinant of W over the product of its diagonal.
@@ -128,8 +127,8 @@ struct AddUndeterminedOf {
   void operator()(const planar::Problem& problem) const {
     if (problem.v0 >= 0.0) return;
     AddJamNote(2, outcome);
-    const PlanarDelassus w = {.tt = problem.w.tt, .tn = problem.w.tn, .nn = problem.w.nn};
-    if (HasFreeBodies(scene) || (HasRoundedW(scene) && w.Rank() == 2)) {
+    if (IsRoundedOfFullRank(scene, 2, outcome)) {
+      const PlanarDelassus w = {.tt = problem.w.tt, .tn = problem.w.tn, .nn = problem.w.nn};
       AddRoundingNote(w.RelativeDeterminant(),
                       " --certified, or certified_digits, gives digits that are proved for the scene.", outcome);
     }
@@ -138,7 +137,7 @@ struct AddUndeterminedOf {
   void operator()(const spatial::Problem& problem) const {
     if (problem.v0 >= 0.0) return;
     AddJamNote(3, outcome);
-    if (HasFreeBodies(scene) || (HasRoundedW(scene) && outcome.w_rank == 3)) {
+    if (IsRoundedOfFullRank(scene, 3, outcome)) {
       AddRoundingNote(4.0 / 9.0 * RelativeDeterminant(problem), "", outcome);
     }
     if (!(problem.mu_static > 0.0) || !IsAtRest(outcome.contact_velocity_after.tangential_m_s)) return;

@@ -41,6 +41,8 @@ double MassScale(double diagonal) {
   return std::scalbn(1.0, -static_cast<int>(std::floor(std::ilogb(diagonal) / 2.0)));
 }
 
+double LeastEigenvalue(size_t n) { return 16.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon(); }
+
 std::vector<Index> FreeCoordinates(const Mechanism& mechanism) {
   return FreeCoordinates(mechanism, TangentialDirections(mechanism) == 2);
 }
@@ -74,7 +76,7 @@ InverseBounds::InverseBounds(const Eigen::LLT<MatrixXd>& cholesky, double trace)
 
 ScaledMass::ScaledMass(const std::vector<double>& matrix, size_t n) {
   const auto size = static_cast<Index>(n);
-  least_ = 16.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+  least_ = LeastEigenvalue(n);
   matrix_ = Eigen::Map<const MatrixXd>(matrix.data(), size, size);
   const VectorXd scales = matrix_.diagonal().unaryExpr(&MassScale);
   matrix_ = scales.asDiagonal() * matrix_ * scales.asDiagonal();

@@ -25,6 +25,9 @@ std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism);
 // The power of two that brings the entry > 0 of a diagonal into [1, 4) from both sides.
 double MassScale(double diagonal);
 
+// The smallest eigenvalue of a scaled matrix of n rows that counts as positive: 16 n eps.
+double LeastEigenvalue(size_t n);
+
 // Bounds on the roots of the diagonal entries of M^-1, and on the root of its trace, from the Cholesky factor and the
 // trace of an M whose diagonal lies in [1, 4). They are infinite where M is singular to rounding.
 struct InverseBounds {
@@ -39,7 +42,7 @@ class ScaledMass {
  public:
   ScaledMass(const std::vector<double>& matrix, size_t n);
 
-  // The smallest eigenvalue that counts as positive: 16 n eps.
+  // LeastEigenvalue of its size.
   double least() const { return least_; }
   // True if a Cholesky factor proves that all eigenvalues are above `least`. False may mean that some are close to it.
   bool IsSurelyDefinite() const;

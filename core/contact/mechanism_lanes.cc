@@ -101,8 +101,8 @@ class MechanismLanes {
   V Shift() {
     V trace = Lanes<V>::Fill(0.0);
     for (size_t i = 0; i < free_.size(); ++i) trace = trace + mass_.Get(i, i);
-    const auto n = static_cast<double>(free_.size());
-    return Fma(Lanes<V>::Fill((n + 4.0) * 0x1p-53), trace, Lanes<V>::Fill(16.0 * n * 0x1p-52));
+    const size_t n = free_.size();
+    return Fma(Lanes<V>::Fill(static_cast<double>(n + 4) * 0x1p-53), trace, Lanes<V>::Fill(LeastEigenvalue(n)));
   }
 
   // Sets the Cholesky factor of M less `shift` times 1, with the inverses of its diagonal. Returns 1 in the lanes where
@@ -214,8 +214,10 @@ namespace ricochet {
 
 HWY_EXPORT(ReduceStates);
 
-void ReduceInLanes(size_t n, absl::Span<const size_t> free, absl::Span<MechanismState> states) {
-  if (n <= kMostInLanes) HWY_DYNAMIC_DISPATCH(ReduceStates)(n, free, states);
+void ReduceInLanes(const Mechanism& form, absl::Span<MechanismState> states) {
+  if (form.rates.size() > kMostInLanes) return;
+  const std::vector<Eigen::Index> free = FreeCoordinates(form, true);
+  HWY_DYNAMIC_DISPATCH(ReduceStates)(form.rates.size(), std::vector<size_t>(free.begin(), free.end()), states);
 }
 
 }  // namespace ricochet

@@ -10,6 +10,7 @@
 #include <cstddef>
 
 #include "absl/types/span.h"
+#include "ricochet/system.h"
 
 namespace ricochet {
 
@@ -29,8 +30,9 @@ struct MechanismState {
   bool is_reduced = false;
 };
 
-// Reduces states of `n` coordinates, at most kMostInLanes, of which those of `free` move during the impact.
-void ReduceInLanes(size_t n, absl::Span<const size_t> free, absl::Span<MechanismState> states);
+// Reduces states of as many coordinates as `form` has rates, at most kMostInLanes, and with those held that it holds.
+// Its numbers do not matter.
+void ReduceInLanes(const Mechanism& form, absl::Span<MechanismState> states);
 
 }  // namespace ricochet
 

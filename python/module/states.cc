@@ -130,8 +130,7 @@ struct States {
   const double *mass, *jacobian, *rates, *normal;
   std::array<double*, 9> contact;  // W by its upper triangle, then the contact velocity.
   double *axes, *turned, *response;
-  Mechanism kept;  // It says which coordinates are held.
-  std::vector<size_t> free;
+  Mechanism form;  // It says how many coordinates there are, and which are held.
 };
 
 // Sets the axes of a state, and J in them.
@@ -154,9 +153,10 @@ void Turn(const States& states, size_t state) {
 }
 
 // Reduces one state that lanes cannot. The W of one that breaks a rule is NaN, which the batch refuses.
-void ReduceAlone(const Mechanism& kept, size_t n, MechanismState& state) {
+void ReduceAlone(const Mechanism& form, MechanismState& state) {
+  const size_t n = form.rates.size();
   Scene scene;
-  auto& mechanism = scene.system.emplace<Mechanism>(kept);
+  auto& mechanism = scene.system.emplace<Mechanism>(form);
   mechanism.mass_matrix.assign(state.mass, state.mass + n * n);
   mechanism.jacobian.assign(state.jacobian, state.jacobian + 3 * n);
   mechanism.rates.assign(state.rates, state.rates + n);
@@ -183,10 +183,10 @@ void ReducePart(const States& states, int64_t first, int64_t end) {
                     .response = states.response + at * 3 * n});
     std::fill_n(part.back().response, 3 * n, 0.0);
   }
-  ReduceInLanes(n, states.free, absl::MakeSpan(part));
+  ReduceInLanes(states.form, absl::MakeSpan(part));
   for (size_t i = 0; i < part.size(); ++i) {
     MechanismState& state = part[i];
-    if (!state.is_reduced) ReduceAlone(states.kept, n, state);
+    if (!state.is_reduced) ReduceAlone(states.form, state);
     for (size_t k = 0; k < 6; ++k) states.contact[k][static_cast<size_t>(first) + i] = state.w[k];
     for (size_t k = 0; k < 3; ++k) states.contact[6 + k][static_cast<size_t>(first) + i] = state.velocity[k];
   }
@@ -229,11 +229,7 @@ py::tuple ReduceStates(const Numbers& mass, const Numbers& jacobian, const Numbe
                    .axes = axes.mutable_data(),
                    .turned = turned.mutable_data(),
                    .response = response.mutable_data(),
-                   .kept = {.kept_coordinates = held},
-                   .free = {}};
-  for (size_t k = 0; k < states.coordinates; ++k) {
-    if (std::find(held.begin(), held.end(), static_cast<int32_t>(k)) == held.end()) states.free.push_back(k);
-  }
+                   .form = {.rates = std::vector<double>(static_cast<size_t>(n)), .kept_coordinates = held}};
   py::list columns;
   for (double*& column : states.contact) {
     Numbers made(count);

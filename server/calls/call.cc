@@ -6,10 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
-#include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/base/refusals.h"
 #include "server/base/request_id.h"
 #include "server/base/telemetry_names.h"
@@ -113,8 +111,7 @@ absl::Status Call::CheckCaller() {
   const auto now = std::chrono::steady_clock::now();
   if (frame_.auth == nullptr || now < next_check_) return absl::OkStatus();
   next_check_ = now + kBetweenChecks;
-  const std::string path = absl::StrCat("/", v1::ImpactService::service_full_name(), "/", record_.method);
-  return frame_.auth->StillAllows(context_, path, peer_key_) ? absl::OkStatus() : CallerRemoved();
+  return frame_.auth->StillAllows(context_, PathOf(record_.method), peer_key_) ? absl::OkStatus() : CallerRemoved();
 }
 
 absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work) {

@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "absl/strings/match.h"
-#include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
-#include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/base/refusals.h"
 #include "server/base/request_id.h"
 #include "server/base/telemetry_names.h"
@@ -28,8 +26,6 @@ using grpc::experimental::ServerRpcInfo;
 
 // The name that gRPC gives to every method that no service has.
 constexpr char kUnknownMethod[] = "unknown";
-
-std::string MethodPrefix() { return absl::StrCat("/", v1::ImpactService::service_full_name(), "/"); }
 
 // Why a call ended before a handler ran, and the status to end it with.
 struct Refusal {
@@ -85,7 +81,7 @@ class CallInterceptor final : public grpc::experimental::Interceptor {
 
 class Factory final : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
-  explicit Factory(const Observer& observer) : observer_(observer), prefix_(MethodPrefix()) {}
+  explicit Factory(const Observer& observer) : observer_(observer), prefix_(PathOf("")) {}
 
   // Health checks and other services of gRPC are not watched.
   grpc::experimental::Interceptor* CreateServerInterceptor(ServerRpcInfo* info) override {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
+#include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/base/request_id.h"
 #include "server/base/trace_parent.h"
 
@@ -25,6 +27,10 @@ CallRecord RecordOf(std::string method, const grpc::ServerContextBase& context) 
   record.request_id = RequestIdOr(Metadata(context, kRequestIdHeader));
   record.trace_id = TraceId(Metadata(context, "traceparent"));
   return record;
+}
+
+std::string PathOf(const std::string& method) {
+  return absl::StrCat("/", v1::ImpactService::service_full_name(), "/", method);
 }
 
 }  // namespace ricochet::server

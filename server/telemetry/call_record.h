@@ -48,6 +48,9 @@ struct CallRecord {
 // request id gets a new one.
 CallRecord RecordOf(std::string method, const grpc::ServerContextBase& context);
 
+// Returns the path of a method of the ImpactService: "/ricochet.v1.ImpactService/Solve".
+std::string PathOf(const std::string& method);
+
 }  // namespace ricochet::server
 
 #endif  // RICOCHET_SERVER_TELEMETRY_CALL_RECORD_H_

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
-#include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/base/telemetry_names.h"
 
 namespace ricochet::server {
@@ -48,12 +46,11 @@ void Observer::Ended(const CallRecord& call) const {
   metrics_.Ended(call);
   const std::optional<int64_t> left_out = sampler_.Take(call, CallSampler::Clock::now());
   if (!left_out.has_value()) return;
-  std::vector<LogField> fields = {
-      {"peer", call.peer},
-      {"method", absl::StrCat("/", v1::ImpactService::service_full_name(), "/", call.method)},
-      {"status", absl::StatusCodeToString(call.status)},
-      {"duration_ms", call.duration_s * 1e3},
-      {"request_id", call.request_id}};
+  std::vector<LogField> fields = {{"peer", call.peer},
+                                  {"method", PathOf(call.method)},
+                                  {"status", absl::StatusCodeToString(call.status)},
+                                  {"duration_ms", call.duration_s * 1e3},
+                                  {"request_id", call.request_id}};
   AddPresent(call, fields);
   if (*left_out > 0) fields.push_back({"calls_left_out", *left_out});
   log_.Write(LogLevel::kInfo, "call", fields);

@@ -212,10 +212,6 @@ absl::Status ReadAnyScene(const SceneOptions& options, std::variant<Scene, Multi
 }
 
 static absl::StatusOr<std::string> ReadBytes(const std::string& path) {
-  if (path != "-") {
-    absl::StatusOr<std::ifstream> file = OpenToRead(path);
-    if (!file.ok()) return file.status();
-  }
   std::FILE* const file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
   if (file == nullptr) return CannotRead(path, errno);
   std::string text;
@@ -243,9 +239,7 @@ absl::StatusOr<std::ifstream> OpenToRead(const std::string& path) {
 absl::StatusOr<std::string> ReadText(const std::string& path) {
   absl::StatusOr<std::string> text = ReadBytes(path);
   if (!text.ok()) return text;
-  if (absl::StartsWith(*text, "\xFF\xFE") || absl::StartsWith(*text, "\xFE\xFF")) {
-    return absl::InvalidArgumentError(absl::StrCat(NameOf(path), " is in UTF-16: must be in UTF-8"));
-  }
+  if (absl::Status status = RefuseUtf16(*text, NameOf(path)); !status.ok()) return status;
   if (absl::StartsWith(*text, kByteOrderMark)) text->erase(0, sizeof(kByteOrderMark) - 1);
   return text;
 }

@@ -93,12 +93,15 @@ void CsvReader::Append(const std::vector<std::string>& cells, CsvTable& table) c
   if (!bad.description.empty()) table.bad.push_back(std::move(bad));
 }
 
+absl::Status RefuseUtf16(absl::string_view text, const std::string& name) {
+  if (!absl::StartsWith(text, "\xFF\xFE") && !absl::StartsWith(text, "\xFE\xFF")) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(name, " is in UTF-16: must be in UTF-8"));
+}
+
 absl::StatusOr<CsvReader> CsvReader::Open(std::istream& stream, const std::string& name) {
   CsvReader reader(stream, name);
   if (!reader.NextLine()) return absl::InvalidArgumentError(absl::StrCat(name, " has no header"));
-  if (absl::StartsWith(reader.line_, "\xFF\xFE") || absl::StartsWith(reader.line_, "\xFE\xFF")) {
-    return absl::InvalidArgumentError(absl::StrCat(name, " is in UTF-16: must be in UTF-8"));
-  }
+  if (absl::Status status = RefuseUtf16(reader.line_, name); !status.ok()) return status;
   for (const auto& [separator, plural] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
     if (!absl::StrContains(reader.line_, separator)) continue;
     return absl::InvalidArgumentError(

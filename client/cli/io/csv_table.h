@@ -12,11 +12,15 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 
 namespace ricochet::cli {
 
 // Spreadsheets and some editors put it in front of a text in UTF-8.
 inline constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
+
+// Errors: INVALID_ARGUMENT for a text that begins with the byte order mark of UTF-16; `name` names it.
+absl::Status RefuseUtf16(absl::string_view text, const std::string& name);
 
 // A row that has a NaN in place of a number, and why.
 struct BadCells {

@@ -73,11 +73,11 @@ class ExplorePageTest(unittest.TestCase):
         self.browser.open(f"{self.url}#at={scene}")
         self.settle()
 
-    def settle(self, settled=SETTLED):
+    def settle(self):
         """Waits until no change is under way, and the answer to the last one is drawn."""
         time.sleep(0.15)
         for _ in range(200):
-            if self.browser.script(settled):
+            if self.browser.script(SETTLED):
                 break
             time.sleep(0.05)
         time.sleep(0.15)

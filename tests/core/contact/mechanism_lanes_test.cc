@@ -18,11 +18,6 @@ namespace {
 // So many that no target has a lane for each, and some lanes of the last group are left.
 constexpr size_t kStates = 19;
 
-std::vector<size_t> FreeOf(const Mechanism& mechanism) {
-  const std::vector<Eigen::Index> free = FreeCoordinates(mechanism);
-  return {free.begin(), free.end()};
-}
-
 // Reduces states that differ in M, J and q' alone. `responses` has n x 3 numbers for each.
 std::vector<MechanismState> Reduced(const std::vector<Mechanism>& mechanisms, std::vector<double>& responses) {
   const size_t n = mechanisms.front().rates.size();
@@ -34,7 +29,7 @@ std::vector<MechanismState> Reduced(const std::vector<Mechanism>& mechanisms, st
                       .rates = one.rates.data(),
                       .response = &responses[states.size() * 3 * n]});
   }
-  ReduceInLanes(n, FreeOf(mechanisms.front()), absl::MakeSpan(states));
+  ReduceInLanes(mechanisms.front(), absl::MakeSpan(states));
   return states;
 }
 
