@@ -56,22 +56,31 @@ std::string BrokenLimitText(const BrokenLimit& limit) {
   return " of an unknown limit;";
 }
 
-// Gives FAILED_PRECONDITION that names the limits that an end of the impact breaks, if one breaks any, or that says
-// that the impact law has no solution or that the impact was not followed to its end.
-absl::Status CheckAdmissible(const Outcome& outcome) {
-  const auto refuse = [](std::string message, const std::vector<BrokenLimit>& broken_limits) {
-    for (const BrokenLimit& limit : broken_limits) message += BrokenLimitText(limit);
+// Gives FAILED_PRECONDITION if the end, an Outcome or a FreeEnd, breaks limits, which are then named, or if it is not
+// the end of the impact. `where` says which end it is.
+template <typename End>
+absl::Status CheckAdmissible(const End& end, absl::string_view where) {
+  std::string message;
+  if (end.regime == Regime::kNoSolution) {
+    message = absl::StrCat("the impact law has no solution for this contact", where);
+  } else if (end.termination == Termination::kBudgetUsedUp) {
+    message = absl::StrCat("the model's budget of steps ran out before the contact separated", where);
+  } else if (end.termination == Termination::kRefused) {
+    message = absl::StrCat("the contact has no end that is known", where);
+  } else if (!end.admissible) {
+    message = absl::StrCat("the outcome", where, " is inadmissible:");
+    for (const BrokenLimit& limit : end.broken_limits) message += BrokenLimitText(limit);
     message.pop_back();
-    return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
-  };
-  if (outcome.regime == Regime::kNoSolution) return refuse("the impact law has no solution for this contact;", {});
-  if (outcome.termination == Termination::kBudgetUsedUp) {
-    return refuse("the model's budget of steps ran out before the contact separated;", {});
+  } else {
+    return absl::OkStatus();
   }
-  if (outcome.termination == Termination::kRefused) return refuse("the contact has no end that is known;", {});
-  if (!outcome.admissible) return refuse("the outcome is inadmissible:", outcome.broken_limits);
-  if (!outcome.free_end.has_value() || outcome.free_end->admissible) return absl::OkStatus();
-  return refuse("the outcome with no coordinate held is inadmissible:", outcome.free_end->broken_limits);
+  return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
+}
+
+absl::Status CheckAdmissible(const Outcome& outcome) {
+  absl::Status status = CheckAdmissible(outcome, "");
+  if (!status.ok() || !outcome.free_end.has_value()) return status;
+  return CheckAdmissible(*outcome.free_end, " with no coordinate held");
 }
 
 // A client sees the first points soon, and no proxy or caller waits long between two chunks.

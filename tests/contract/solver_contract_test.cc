@@ -370,6 +370,22 @@ TEST_P(SolverContract, MechanismsHaveTheBitsOfTheEngineAtBothEnds) {
   }
 }
 
+TEST_P(SolverContract, StrictJudgesTheEndWithNothingHeldToo) {
+  Scene scene = With(Mechanism{.mass_matrix = {3.5, -1.26, 0.49, -1.26, 2.45, -0.61, 0.49, -0.61, 3.72},
+                               .jacobian = {1.4, 0.34, -0.62, 0.9, 1.69, 1.25},
+                               .rates = {-0.42, -0.32, -0.09},
+                               .kept_coordinates = {0}});
+  scene.friction.kinetic_coefficient = 0.6;
+  scene.restitution = NewtonCoefficient{0.9};
+  SolveRequest request = {.scene = scene, .inadmissible_is_error = true};
+  EXPECT_TRUE(solver().Solve(request).ok());
+  request.both_ends = true;
+  const absl::Status status = solver().Solve(request).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(std::string(status.message()),
+              testing::HasSubstr("with no coordinate held is inadmissible: its energetic"));
+}
+
 TEST_P(SolverContract, RefusesBothEndsOfAMechanismThatHoldsNothing) {
   const absl::Status status = solver().Solve({.scene = With(Arm()), .both_ends = true}).status();
   ASSERT_EQ(status.code(), absl::StatusCode::kInvalidArgument);

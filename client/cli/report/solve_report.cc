@@ -69,13 +69,15 @@ const char* RegimeSentence(Regime regime) {
   return "Unknown: the server answered with a regime that this build does not know.";
 }
 
-bool HasEnd(const Outcome& outcome) {
-  return outcome.termination != Termination::kBudgetUsedUp && outcome.termination != Termination::kRefused;
+bool HasEnd(Termination termination) {
+  return termination != Termination::kBudgetUsedUp && termination != Termination::kRefused;
 }
 
-std::string Verdict(const Outcome& outcome) {
+// `outcome` is an Outcome or a FreeEnd.
+template <typename End>
+std::string Verdict(const End& outcome) {
   // There is no outcome to judge.
-  if (!HasEnd(outcome)) return "";
+  if (!HasEnd(outcome.termination)) return "";
   if (outcome.admissible) return "Admissible.\n";
   const bool friction_alone =
       outcome.broken_limits.size() == 1 && outcome.broken_limits.front().kind == LimitKind::kFriction;
@@ -95,7 +97,7 @@ std::string CoefficientsText(const Outcome& outcome) {
   const EffectiveCoefficients& effective = outcome.effective;
   // Nothing strikes, so that no ratio of after and before means anything. Outcomes have 0 there.
   if (outcome.regime == Regime::kSeparating) return "Coefficients\n  none: nothing strikes\n";
-  if (!HasEnd(outcome)) return "Coefficients\n  none: the impact has no end that is known\n";
+  if (!HasEnd(outcome.termination)) return "Coefficients\n  none: the impact has no end that is known\n";
   Table table;
   table.Add({"Newton      (velocities, -v+/v-)", Rounded(coefficients.newton)});
   table.Add({"Poisson     (normal impulses)", IfKnown(coefficients.poisson)});
@@ -200,7 +202,7 @@ std::string EndsText(const Outcome& outcome) {
   AddMotion("normal impulse [N s]", {outcome.impulse.normal_total_n_s}, {free.impulse.normal_total_n_s}, table);
   AddMotion("Newton's coefficient", {outcome.coefficients.newton}, {free.coefficients.newton}, table);
   return absl::StrCat("\nBoth ends\n", table.Render(2), "  With nothing held: ", RegimeSentence(free.regime), "\n",
-                      LineOf(TerminationText(free.termination)));
+                      LineOf(TerminationText(free.termination)), Verdict(free));
 }
 
 // Lists every solution of an impact law that can have several.
