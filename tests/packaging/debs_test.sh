@@ -40,11 +40,12 @@ cmake --build build >/dev/null
 cd /
 apt purge libricochet-client-dev
 
-say "Installing what the packages depend on, and the packages"
-dependencies=$(for deb in "$directory"/*.deb; do dpkg-deb --field "$deb" Depends; done |
+say "Installing what the packages depend on or recommend, and the packages"
+# shellcheck disable=SC2016  # dpkg-deb replaces what begins with a dollar sign.
+dependencies=$(for deb in "$directory"/*.deb; do dpkg-deb --showformat='${Depends}, ${Recommends}\n' --show "$deb"; done |
   sed 's/([^)]*)//g; s/|[^,]*//g' | tr ',' '\n' | tr -d ' ' | grep -Ev '^((lib)?ricochet.*|)$' | sort -u)
 # shellcheck disable=SC2086  # A word is a package.
-apt install --no-install-recommends $dependencies adduser cmake g++ make pkg-config gnuplot-nox python3-xarray
+apt install --no-install-recommends $dependencies adduser cmake g++ make pkg-config python3-xarray
 files >/tmp/before
 apt install --no-install-recommends "$directory"/*.deb
 

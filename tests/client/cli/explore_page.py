@@ -292,6 +292,20 @@ class ExplorePageTest(unittest.TestCase):
             self.settle()
             self.assertIn("Kane and Levinson", self.text("#about"))
 
+    def test_an_impact_without_an_end_is_neither_possible_nor_impossible(self):
+        self.browser.open("about:blank")
+        self.browser.open(f"{self.url}#planar_contact.w_tt_per_kg=1&planar_contact.w_tn_per_kg=1"
+                          "&planar_contact.w_nn_per_kg=1&planar_contact.tangential_m_s=1"
+                          "&planar_contact.normal_m_s=-1&friction.kinetic_coefficient=2&restitution.energetic=0.5")
+        self.settle()
+        self.assertIn("Wedged", self.text("#sentence"))
+        self.assertEqual(self.browser.script("return $('verdict').className"), "bad")
+        self.assertEqual(self.text("#state"), "")
+        self.assertIn("– no end is known", self.text("#simulator"))
+        coefficients = self.browser.script(
+            "return [...document.querySelectorAll('#possible tr td:nth-child(2)')].map(cell => cell.textContent)")
+        self.assertEqual(coefficients, ["–"] * 4)
+
     def test_a_bad_scene_is_refused_with_every_field(self):
         self.open("pendulum")
         self.browser.script("""
