@@ -1,7 +1,5 @@
 #include "core/answer/notes.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -31,12 +29,7 @@ Note DurationLeftOut() {
 }
 
 // Three digits tell radians from degrees.
-std::string InRadians(double degrees) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), degrees * (std::numbers::pi / 180.0),
-                                 std::chars_format::general, 3);
-  return std::string(text.data(), end.ptr);
-}
+std::string InRadians(double degrees) { return absl::StrFormat("%.3g", degrees * (std::numbers::pi / 180.0)); }
 
 // It is kept out of the function that looks at every angle.
 [[gnu::noinline]] Note LargeAngle(const NumberPath& path, double value) {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -65,13 +64,6 @@ Motion MotionOf(const Mechanism& mechanism, double /*one*/) {
   motion.jt = Eigen::Map<const MatrixXd>(mechanism.jacobian.data(), n, 2);
   motion.rates = Eigen::Map<const VectorXd>(mechanism.rates.data(), n);
   return motion;
-}
-
-VectorXd RatesOf(const Linkage& linkage) {
-  VectorXd rates(static_cast<Index>(linkage.links.size()));
-  std::transform(linkage.links.begin(), linkage.links.end(), rates.begin(),
-                 [](const Link& link) { return link.rate_rad_s; });
-  return rates;
 }
 
 Motion MotionOf(const Linkage& linkage, double /*one*/) {

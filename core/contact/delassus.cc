@@ -1,18 +1,12 @@
 #include "core/contact/delassus.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/numerics/products.h"
 
 namespace ricochet {
-namespace {
-
-// Computes a d - b c to within 1.5 ulp.
-double Determinant(double a, double b, double c, double d) {
-  const double product = b * c;
-  const double rounding = std::fma(-b, c, product);
-  return std::fma(a, d, -product) + rounding;
-}
-
-}  // namespace
 
 int SpatialDelassus::Rank() const {
   int exponent = 0;
@@ -23,9 +17,9 @@ int SpatialDelassus::Rank() const {
   const bool is_double = std::isfinite(power);
   for (size_t i = 0; i < w.size(); ++i) scaled[i] = is_double ? w[i] * power : std::scalbn(w[i], -exponent);
   const auto& [w11, w12, w13, w22, w23, w33] = scaled;
-  const double m11 = Determinant(w11, w13, w13, w33);
-  const double m22 = Determinant(w22, w23, w23, w33);
-  const double m12 = Determinant(w12, w13, w23, w33);
+  const double m11 = DifferenceOfProducts(w11, w33, w13, w13);
+  const double m22 = DifferenceOfProducts(w22, w33, w23, w23);
+  const double m12 = DifferenceOfProducts(w12, w33, w13, w23);
   if (!(m11 > kRankTolerance * w11 * w33) && !(m22 > kRankTolerance * w22 * w33)) return 1;
   const double noise =
       kRankTolerance * w33 * (std::fabs(m11) * w22 + std::fabs(m22) * w11 + 2.0 * std::fabs(m12 * w12));

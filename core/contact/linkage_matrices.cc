@@ -1,5 +1,6 @@
 #include "core/contact/linkage_matrices.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -24,6 +25,13 @@ Eigen::MatrixXd MassMatrix(const Linkage& linkage) {
     beyond += link.mass_kg;
   }
   return mass;
+}
+
+Eigen::VectorXd RatesOf(const Linkage& linkage) {
+  Eigen::VectorXd rates(static_cast<Eigen::Index>(linkage.links.size()));
+  std::transform(linkage.links.begin(), linkage.links.end(), rates.begin(),
+                 [](const Link& link) { return link.rate_rad_s; });
+  return rates;
 }
 
 Eigen::MatrixXd TransposedJacobian(const Linkage& linkage) {

@@ -17,6 +17,9 @@ Eigen::MatrixXd MassMatrix(const Linkage& linkage);
 // d(tip)/d(theta) in m: one row for each link, columns t and n.
 Eigen::MatrixXd TransposedJacobian(const Linkage& linkage);
 
+// The angular velocities of the links, rad/s.
+Eigen::VectorXd RatesOf(const Linkage& linkage);
+
 // The derivatives of both along `direction`, a linkage whose numbers are the changes of those of `linkage`.
 Eigen::MatrixXd MassMatrixTangent(const Linkage& linkage, const Linkage& direction);
 Eigen::MatrixXd TransposedJacobianTangent(const Linkage& linkage, const Linkage& direction);

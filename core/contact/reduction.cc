@@ -94,9 +94,7 @@ PlanarReduction ReduceOne(const Pendulum& pendulum) {
 }
 
 PlanarReduction ReduceOne(const Linkage& linkage) {
-  Eigen::VectorXd rates(static_cast<Eigen::Index>(linkage.links.size()));
-  std::transform(linkage.links.begin(), linkage.links.end(), rates.begin(),
-                 [](const Link& link) { return link.rate_rad_s; });
+  const Eigen::VectorXd rates = RatesOf(linkage);
   const Eigen::MatrixXd jt = TransposedJacobian(linkage);
   PlanarReduction reduction = FromMechanism<1>(MassMatrix(linkage), jt, rates);
   reduction.coordinates = Coordinates::kRates;

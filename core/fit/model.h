@@ -8,8 +8,8 @@
 
 #include "absl/functional/function_ref.h"
 #include "absl/types/span.h"
+#include "core/fit/fit.h"
 #include "core/fit/problem.h"
-#include "core/fit/solve_rows.h"
 #include "core/rows/driven_scene.h"
 #include "ricochet/batch.h"
 #include "ricochet/regime.h"

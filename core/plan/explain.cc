@@ -1,20 +1,15 @@
 #include "core/plan/explain.h"
 
-#include <array>
-#include <charconv>
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "core/plan/perturbed_path.h"
 
 namespace ricochet {
 namespace {
 
-std::string Digits(double value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
-  return std::string(text.data(), end.ptr);
-}
+std::string Digits(double value) { return absl::StrFormat("%.3g", value); }
 
 std::string Percent(double share) { return absl::StrCat(Digits(100.0 * share), " %"); }
 

@@ -47,7 +47,6 @@ class PathError {
   double OfU() const { return SafeSize(2); }
   double OfV() const { return SafeSize(3); }
   double OfNormalForce() const { return SafeSize(0); }
-  double OfVelocity() const { return OfU() < OfV() ? OfV() : OfU(); }
   // Sections so far.
   int sections() const { return sections_; }
 
