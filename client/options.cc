@@ -49,8 +49,7 @@ std::string TargetRule(const std::string& target) {
   return "";
 }
 
-std::vector<Violation> RetryViolations(const RetryPolicy& retry) {
-  std::vector<Violation> violations;
+void CheckRetry(const RetryPolicy& retry, std::vector<Violation>& violations) {
   if (retry.max_attempts < 1 || retry.max_attempts > kMostAttempts) {
     violations.push_back({"retry.max_attempts", absl::StrCat("= ", retry.max_attempts, ": must be in [1, 5]")});
   }
@@ -66,7 +65,6 @@ std::vector<Violation> RetryViolations(const RetryPolicy& retry) {
   if (!(retry.multiplier >= 1.0) || std::isinf(retry.multiplier)) {
     violations.push_back(MakeViolation("retry.multiplier", retry.multiplier, "be finite and >= 1"));
   }
-  return violations;
 }
 
 }  // namespace
@@ -82,9 +80,7 @@ absl::Status ValidateOptions(const ClientOptions& options) {
     violations.push_back({"max_receive_bytes",
                           absl::StrCat("= ", options.max_receive_bytes, ": must be in [1, ", kMostReceiveBytes, "]")});
   }
-  for (Violation& violation : RetryViolations(options.retry)) {
-    violations.push_back(std::move(violation));
-  }
+  CheckRetry(options.retry, violations);
   const std::string& agent = options.user_agent;
   if (agent.size() > kLongestUserAgent || !std::all_of(agent.begin(), agent.end(), absl::ascii_isprint)) {
     violations.push_back(

@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -28,6 +29,10 @@
 #include "server/telemetry/call_rule.h"
 #include "server/transport/connection_counts.h"
 #include "server/transport/transport.h"
+
+namespace CLI {
+class App;
+}
 
 namespace ricochet::server {
 
@@ -84,6 +89,9 @@ struct Notice {
 // Errors: INVALID_ARGUMENT with one line for each bad value, which names the option, the value and the rule; or
 // INVALID_ARGUMENT that names the first argument that is not an option.
 absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const char* const* argv);
+
+// Returns the command line that ParseCommandLine reads, for programs that describe it.
+std::unique_ptr<CLI::App> MakeCommandLine();
 
 // The limits of a server beyond those of a request's size, as clients ask for them and the log states them.
 ServerLimits ServerLimitsOf(const Options& options);

@@ -135,7 +135,7 @@ void AddAudit(CLI::App& app, Command& command) {
                 "As text, also name each row of the data that is not admissible, and why");
   sub->add_flag("--strict", options->data.strict, "Fail if an impact is not admissible, after writing the answer");
   AddPictureOptions(*sub, "the impulses in the friction cone, and each row beside its limits,", options->data.picture);
-  AddServerOptions(*sub, options->common);
+  AddConnectionOptions(*sub, options->common.connection);
   AddOutputOptions(*sub, options->common, kRowFormats);
 }
 

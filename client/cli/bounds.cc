@@ -248,7 +248,7 @@ void AddBounds(CLI::App& app, Command& command) {
   AddCertifiedOption(*sub, options->certified);
   AddDerivativeOptions(*sub, "ends of ranges and critical coefficients of friction", options->derivatives);
   AddPictureOptions(*sub, "the ranges as bars", options->picture);
-  AddServerOptions(*sub, options->common);
+  AddConnectionOptions(*sub, options->common.connection);
   AddOutputOptions(*sub, options->common, kMessageFormats);
 }
 

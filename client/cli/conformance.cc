@@ -162,11 +162,7 @@ void AddGradeOptions(CLI::App& sub, ConformanceOptions& options) {
       ->type_name("NAME");
   AddFamilies(sub, options);
   AddRepeatable(sub, "--case", options.cases, "This case alone; repeatable, and beside --family")->type_name("NAME");
-  MarkFile(FileUse::kWritten,
-           sub.add_option("--html", options.html,
-                          "Write the report as one page that needs nothing beside it; - for standard output"),
-           {"html", "htm"})
-      ->type_name("FILE.html");
+  AddHtmlOption(sub, "the report", options.html);
 }
 
 }  // namespace

@@ -119,12 +119,8 @@ void AddCost(CLI::App& app, Command& command) {
       ->type_name("TIME");
   sub->add_option("--samples", options->samples, "Samples taken of each time [21]")->type_name("N");
   AddPictureOptions(*sub, "time over error, and error made over error claimed,", options->picture);
-  MarkFile(FileUse::kWritten,
-           sub->add_option("--html", options->html,
-                           "Write tables and pictures as one page that needs nothing beside it; - for standard output"),
-           {"html", "htm"})
-      ->type_name("FILE.html");
-  AddServerOptions(*sub, options->common);
+  AddHtmlOption(*sub, "tables and pictures", options->html);
+  AddConnectionOptions(*sub, options->common.connection);
   AddOutputOptions(*sub, options->common, kMessageFormats);
 }
 

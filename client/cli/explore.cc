@@ -118,7 +118,7 @@ void AddExplore(CLI::App& app, Command& command) {
       ->type_name("ADDRESS:PORT");
   sub->add_flag("--insecure", options->insecure,
                 "Allow an address that other hosts can reach; nothing is encrypted, not even the token");
-  AddServerOptions(*sub, options->common);
+  AddConnectionOptions(*sub, options->common.connection);
 }
 
 }  // namespace ricochet::cli

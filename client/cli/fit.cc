@@ -140,7 +140,7 @@ void AddFit(CLI::App& app, Command& command) {
   sub->add_flag("--strict", options->strict, "Fail if the data refuse the physics, after writing the answer");
   AddPictureOptions(*sub, "data over model, the residuals, the profile of each unknown and the region,",
                     options->picture);
-  AddServerOptions(*sub, options->common);
+  AddConnectionOptions(*sub, options->common.connection);
   AddOutputOptions(*sub, options->common, kMessageFormats);
 }
 

@@ -51,7 +51,7 @@ absl::Status RunHealth(const HealthOptions& options) {
 void AddHealth(CLI::App& app, Command& command) {
   const auto [sub, options] =
       AddCommand<HealthOptions>(app, "health", "Ask whether a server takes calls", kExample, RunHealth, command);
-  AddServerOptions(*sub, options->common);
+  AddConnectionOptions(*sub, options->common.connection);
   sub->add_option("--service", options->service, "Full name of the service; empty for the server as a whole")
       ->type_name("NAME");
 }

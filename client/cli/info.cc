@@ -27,10 +27,6 @@ This program takes requests of any size. With --server the answer is about a ser
 CSV has one row for each property and each limit; several values of one property stand with spaces between them.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
-struct InfoOptions {
-  CommonOptions common;
-};
-
 // One property or limit: its name, its value, and for a limit what it limits.
 struct Row {
   std::string name;
@@ -112,22 +108,22 @@ std::string InfoCsv(const InfoResponse& info) {
   return text;
 }
 
-absl::Status RunInfo(const InfoOptions& options) {
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+absl::Status RunInfo(const CommonOptions& options) {
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options);
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<InfoResponse> info = (*solver)->Info();
   if (!info.ok()) return info.status();
   return WriteAnswer(
-      options.common, *info, [&] { return InfoText(*info); }, [&] { return InfoCsv(*info); });
+      options, *info, [&] { return InfoText(*info); }, [&] { return InfoCsv(*info); });
 }
 
 }  // namespace
 
 void AddInfo(CLI::App& app, Command& command) {
-  const auto [sub, options] = AddCommand<InfoOptions>(app, "info", "The engine, what it can compute, and its limits",
-                                                      kExample, RunInfo, command);
-  AddServerOptions(*sub, options->common);
-  AddOutputOptions(*sub, options->common, kMessageFormats);
+  const auto [sub, options] = AddCommand<CommonOptions>(app, "info", "The engine, what it can compute, and its limits",
+                                                        kExample, RunInfo, command);
+  AddConnectionOptions(*sub, options->connection);
+  AddOutputOptions(*sub, *options, kMessageFormats);
 }
 
 }  // namespace ricochet::cli

@@ -154,7 +154,7 @@ void AddMultiContact(CLI::App& app, Command& command) {
       ->type_name("CONTACT=LOW:HIGH");
   AddPictureOptions(*sub, "the strike, the outcomes within what is possible, and the outcomes over the stiffness,",
                     options->picture);
-  AddServerOptions(*sub, options->common);
+  AddConnectionOptions(*sub, options->common.connection);
   AddOutputOptions(*sub, options->common, kMessageFormats);
 }
 

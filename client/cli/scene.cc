@@ -74,11 +74,9 @@ absl::Status RunList(const SceneCommand& options) {
   std::string json = "[";
   const auto add = [&](const std::string& name, const std::string& comment, bool is_multi_contact) {
     table.Add({name, comment});
-    absl::StrAppend(&json, json.size() > 1 ? "," : "", is_multi_contact ? "{\"multicontact\":" : "{\"system\":");
-    AppendJson(name, json);
-    json += ",\"meaning\":";
-    AppendJson(comment, json);
-    json += "}";
+    absl::StrAppend(&json, json.size() > 1 ? "," : "", "{",
+                    JsonMember(is_multi_contact ? "multicontact" : "system", name), ",", JsonMember("meaning", comment),
+                    "}");
   };
   for (const SceneTemplate& one : SceneTemplates()) add(one.system, CommentOfSystem(one.system), false);
   table.Add({""});
@@ -138,17 +136,9 @@ absl::Status RunPrint(const SceneCommand& options) {
 // --- fields and columns ---
 
 std::string InfoJson(const std::string& path, const FieldInfo& info) {
-  std::string json = "{";
-  const auto add = [&json](const char* key, const std::string& text) {
-    absl::StrAppend(&json, json.size() > 1 ? "," : "", "\"", key, "\":");
-    AppendJson(text, json);
-  };
-  add("path", path);
-  add("unit", info.unit);
-  add("range", info.range);
-  add("meaning", info.meaning);
-  add("description", info.comment);
-  return json + "}";
+  return absl::StrCat("{", JsonMember("path", path), ",", JsonMember("unit", info.unit), ",",
+                      JsonMember("range", info.range), ",", JsonMember("meaning", info.meaning), ",",
+                      JsonMember("description", info.comment), "}");
 }
 
 // Each path with its unit, and what it is on the line below.

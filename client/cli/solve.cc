@@ -199,12 +199,7 @@ void AddSolve(CLI::App& app, Command& command) {
                 "Fail if the outcome is inadmissible or has no end; with --data, if that or an invalid row "
                 "occurs, after writing all");
   AddPictureOptions(*sub, "velocities and forces over impulse or time, and in space also the slip,", options->picture);
-  MarkFile(FileUse::kWritten,
-           sub->add_option("--html", options->html,
-                           "Write the pictures of `ricochet explore` as one page that needs nothing beside it; - for "
-                           "standard output"),
-           {"html", "htm"})
-      ->type_name("FILE.html");
+  AddHtmlOption(*sub, "the pictures of `ricochet explore`", options->html);
   MarkFile(
       FileUse::kRead,
       sub->add_option("--data", options->data.file,
@@ -215,7 +210,7 @@ void AddSolve(CLI::App& app, Command& command) {
   AddList(*sub, "--column", options->data.columns,
           "Fields of the outcome to give for --data [the contact's velocity after and the impulse]")
       ->type_name("COLUMN,...");
-  AddServerOptions(*sub, options->common);
+  AddConnectionOptions(*sub, options->common.connection);
   AddOutputOptions(*sub, options->common, kRowFormats);
 }
 

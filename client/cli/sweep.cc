@@ -340,7 +340,7 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   AddPictureOptions(*sub, "curves over the last axis, or a map of two axes,", options->picture);
   AddAxisOptions(*sub, options->picture);
   AddKindOption(*sub, options->picture);
-  AddServerOptions(*sub, options->common);
+  AddConnectionOptions(*sub, options->common.connection);
   sub->add_flag("--fan-out", options->fan_out,
                 "Let all servers of --server A,B,... compute the sweep together, a range of points each at a time");
   AddOutputOptions(*sub, options->common, kSweepFormats);

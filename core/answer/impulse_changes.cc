@@ -29,11 +29,15 @@ double Weighted(double weight, double size) { return size == 0.0 ? 0.0 : weight 
 
 // The contact of A, and how far B is from it. Slip is measured by |u|, the root of u^T Wtt^-1 u; comments have the
 // symbols of docs/theory/mechanism.md.
+//
+// In space one free coordinate moves slip along one direction d alone. |u| then measures the part of u along d. What u
+// has across d stays as it is, and turns friction.
 template <size_t kTangential>
 class Neighbours {
  public:
+  // Normal impulses must not exceed `most_tau`.
   Neighbours(const Reduction<kTangential>& reduction, const EffectiveCoefficients& coefficients,
-             const ContactErrors<kTangential>& errors);
+             const ContactErrors<kTangential>& errors, Freedom freedom, double most_tau);
 
   double SlipGap(double tau) const { return slip_gap_ + slip_growth_ * tau; }                             // N
   double SpeedGap(double tau) const { return speed_gap_ + speed_growth_ * tau + lever_ * SlipGap(tau); }  // E
@@ -42,7 +46,9 @@ class Neighbours {
     return (speed_growth_ + lever_ * slip_growth_) * time + lever_ * slip_gap;
   }
   double ImpulseGap(size_t i, double tau) const {
-    const double bound = Weighted(inverse_roots_[i], 2.0 * SlipGap(tau));
+    const double slip_gap = SlipGap(tau);
+    const double turn = across_ + Weighted(turn_by_slip_, slip_gap);
+    const double bound = Weighted(inverse_roots_[i], 2.0 * slip_gap) + Weighted(turn, most_friction_ * tau);
     return std::min(bound, 2.0 * most_friction_ * tau) + friction_error_ * tau;
   }
 
@@ -76,18 +82,28 @@ class Neighbours {
   double Norm(const Vector<kTangential>& x) const {
     double sum = 0.0;
     for (size_t i = 0; i < kTangential; ++i) {
+      if (has_one_direction_) {
+        sum += std::fabs(direction_[i]) * x[i] / root_trace_;
+        continue;
+      }
       if (x[i] > 0.0) sum += x[i] / roots_[i];
     }
     return Weighted(conditioning_, sum);
   }
+  void SetOneDirection(const Reduction<2>& reduction);
   void SetHold(const Reduction<kTangential>& reduction, const ContactErrors<kTangential>& errors);
   void SetGaps(const ContactErrors<kTangential>& errors);
+  void SetTurn(const Reduction<2>& reduction, const ContactErrors<2>& errors, double most_tau);
 
   double wnn_, kinetic_friction_, static_friction_, friction_error_, static_error_, most_friction_;
   Vector<kTangential> roots_, inverse_roots_;  // Square roots of the diagonals of Wtt and of Wtt^-1.
   Vector<kTangential> coupling_;               // wtn
   double conditioning_ = 1.0;                  // 1/sqrt(1 - rho^2), rho the correlation of t1 and t2.
   double coupling_size_, root_trace_, steepest_, slope_noise_;
+  bool has_one_direction_ = false;
+  Vector<kTangential> direction_ = {};  // d
+  // How far friction is turned by errors of what u has across d, and by those along d.
+  double across_ = 0.0, turn_by_slip_ = 0.0;
   double hold_ = 0.0, hold_error_ = 0.0;  // |Wtt^-1 wtn|
   double stick_slope_ = 0.0;
   double slip_gap_ = 0.0, slip_growth_ = 0.0, speed_gap_ = 0.0, speed_growth_ = 0.0, lever_ = 0.0, slip_pace_ = 0.0;
@@ -95,7 +111,7 @@ class Neighbours {
 
 template <size_t kTangential>
 Neighbours<kTangential>::Neighbours(const Reduction<kTangential>& reduction, const EffectiveCoefficients& coefficients,
-                                    const ContactErrors<kTangential>& errors)
+                                    const ContactErrors<kTangential>& errors, Freedom freedom, double most_tau)
     : wnn_(reduction.w.back()),
       kinetic_friction_(coefficients.kinetic_friction),
       static_friction_(coefficients.static_friction),
@@ -117,10 +133,48 @@ Neighbours<kTangential>::Neighbours(const Reduction<kTangential>& reduction, con
   for (size_t i = 0; i < kTangential; ++i) inverse_roots_[i] = conditioning_ / roots_[i];
   coupling_size_ = Length<kTangential>(coupling_);
   root_trace_ = Length<kTangential>(roots_);
+  if constexpr (kTangential == 2) {
+    if (freedom != Freedom::kMany && root_trace_ > 0.0) SetOneDirection(reduction);
+  }
   steepest_ = wnn_ + std::max(most_friction_, static_friction_) * coupling_size_;
   slope_noise_ = 16.0 * kUnit * steepest_;
   SetHold(reduction, errors);
   SetGaps(errors);
+  if constexpr (kTangential == 2) {
+    if (has_one_direction_ && freedom == Freedom::kOneBesideOthers) SetTurn(reduction, errors, most_tau);
+  }
+}
+
+template <size_t kTangential>
+void Neighbours<kTangential>::SetOneDirection(const Reduction<2>& reduction) {
+  has_one_direction_ = true;
+  conditioning_ = 1.0;
+  const bool is_first = reduction.w[0] >= reduction.w[3];
+  direction_ = {reduction.w[is_first ? 0 : 1], reduction.w[is_first ? 1 : 3]};
+  const double length = Length<2>(direction_);
+  for (double& component : direction_) component /= length;
+  inverse_roots_.fill(1.0 / root_trace_);
+}
+
+// For slip (x, c) along and across d, friction along d is F = -mu x/sqrt(x^2 + c^2), which falls with x. Its slope by c
+// is at most 2/(3 sqrt 3) mu/c, so that an error of c lets |u| grow by that times the root of tr Wtt at most.
+template <size_t kTangential>
+void Neighbours<kTangential>::SetTurn(const Reduction<2>& reduction, const ContactErrors<2>& errors, double most_tau) {
+  const Vector<2> across = {-direction_[1], direction_[0]};
+  const Vector<2> u0 = {reduction.u0[0], reduction.u0[1]};
+  double part = 0.0, of_direction = 0.0, error = 0.0;
+  for (size_t i = 0; i < 2; ++i) {
+    const double of_wtt = errors.w[i][0] + errors.w[i][1];
+    part += across[i] * u0[i];
+    of_direction += 2.0 * of_wtt / (root_trace_ * root_trace_);
+    error += std::fabs(across[i]) * (errors.velocity[i] + most_tau * (errors.w[i][2] + most_friction_ * of_wtt));
+  }
+  const double noise = (8.0 * kUnit + of_direction) * Length<2>(u0);
+  error += noise;
+  const double least = std::fabs(part) - noise - error;
+  across_ = least > 0.0 ? error / least : kInfinity;
+  turn_by_slip_ = least > 0.0 ? root_trace_ / least : kInfinity;
+  slip_growth_ += Weighted(across_, 0.385 * most_friction_ * root_trace_);
 }
 
 template <size_t kTangential>
@@ -134,6 +188,9 @@ void Neighbours<kTangential>::SetHold(const Reduction<kTangential>& reduction,
       hold[0] = coupling_[0] / wtt;
       stick_slope_ = DifferenceOfProducts(wtt, wnn_, coupling_[0], coupling_[0]) / wtt;
     }
+  } else if (has_one_direction_) {
+    const double along = coupling_[0] * direction_[0] + coupling_[1] * direction_[1];
+    for (size_t i = 0; i < 2; ++i) hold[i] = along / (root_trace_ * root_trace_) * direction_[i];
   } else {
     const bool is_full = roots_[0] > 0.0 && roots_[1] > 0.0;
     const double rho = is_full ? reduction.w[1] / roots_[0] / roots_[1] : 0.0;
@@ -182,6 +239,7 @@ double Neighbours<kTangential>::SettlingTime(double slip_gap) const {
   double least = kInfinity;  // A bound below the root of the least eigenvalue of Wtt.
   for (const double root : roots_) least = std::min(least, root > 0.0 ? root / conditioning_ : kInfinity);
   least /= std::sqrt(static_cast<double>(kTangential));
+  if (has_one_direction_) least = root_trace_;
   return margin > 0.0 && least > 0.0 ? slip_gap / (margin * least) : kInfinity;
 }
 
@@ -195,7 +253,7 @@ double Neighbours<kTangential>::LeastSlope(const Vector<kTangential>& u, double 
     return SlidingSlope(u) - kinetic_friction_ * coupling_size_ * turn;
   }
   const double slides = wnn_ - kinetic_friction_ * coupling_size_ - slope_noise_;
-  return Holds() ? std::min(slides, stick_slope_) : slides;
+  return Holds() && !has_one_direction_ ? std::min(slides, stick_slope_) : slides;
 }
 
 // The course of A as far as the bound needs it.
@@ -262,17 +320,19 @@ template <size_t kTangential>
 class Comparison {
  public:
   Comparison(const Reduction<kTangential>& reduction, RestitutionLaw law, const ContactErrors<kTangential>& errors,
-             const Outcome& outcome)
+             Freedom freedom, const Outcome& outcome)
       : law_(law),
         errors_(errors),
         outcome_(outcome),
-        near_(reduction, outcome.effective, errors),
+        freedom_(freedom),
         course_(outcome),
+        most_tau_(freedom == Freedom::kOneBesideOthers ? 1.01 * course_.total : std::numeric_limits<double>::max()),
+        near_(reduction, outcome.effective, errors, freedom, most_tau_),
         u_error_(outcome.errors.tangential_m_s.value_or(kInfinity)),
         v_error_(outcome.errors.normal_m_s.value_or(kInfinity)) {}
 
   // The changes of the impulses.
-  Impulses<kTangential> Bound(bool has_exact_rank) const;
+  Impulses<kTangential> Bound() const;
 
  private:
   double LeastSlope(const Vector<kTangential>& u, double from, double step) const {
@@ -310,8 +370,10 @@ class Comparison {
   const RestitutionLaw law_;
   const ContactErrors<kTangential>& errors_;
   const Outcome& outcome_;
-  const Neighbours<kTangential> near_;
+  const Freedom freedom_;
   const Course<kTangential> course_;
+  const double most_tau_;  // No bound is given for a B whose impulse may exceed it.
+  const Neighbours<kTangential> near_;
   const double u_error_, v_error_;  // The errors of A itself.
 };
 
@@ -342,16 +404,17 @@ double Comparison<kTangential>::RestitutionShift(double compression_shift) const
 }
 
 template <size_t kTangential>
-Impulses<kTangential> Comparison<kTangential>::Bound(bool has_exact_rank) const {
+Impulses<kTangential> Comparison<kTangential>::Bound() const {
   Impulses<kTangential> change;
   change.fill(kInfinity);
   const bool locks = outcome_.regime == Regime::kLocked;
   if (!course_.is_known || !(near_.SpeedGap(0.0) < -0.5 * course_.v0)) return change;
-  if (locks && !(has_exact_rank && near_.SurelyHolds() && Length<kTangential>(course_.u0) > 0.0)) return change;
+  if (locks && !(freedom_ == Freedom::kOneAlone && near_.SurelyHolds() && Length<kTangential>(course_.u0) > 0.0))
+    return change;
   const double compression_shift = locks ? LockShift() : CompressionShift();
   const double shift = compression_shift + (locks ? 0.0 : RestitutionShift(compression_shift));
   const double last = course_.total + shift;
-  if (!(last < kInfinity)) return change;
+  if (!(last <= most_tau_)) return change;
   const double slip_gap = near_.SlipGap(last) + near_.slip_pace() * shift;
   if (!locks && near_.StaticFrictionDecides() && MayRest(near_.root_trace() * slip_gap + u_error_)) return change;
   const bool same_friction = locks || !near_.has_friction() || SlideOneWay(slip_gap);
@@ -367,7 +430,7 @@ Impulses<kTangential> Comparison<kTangential>::Bound(bool has_exact_rank) const 
 
 template <size_t kTangential>
 Impulses<kTangential> ImpulseChanges(const Reduction<kTangential>& reduction, RestitutionLaw law,
-                                     const ContactErrors<kTangential>& errors, bool has_exact_rank,
+                                     const ContactErrors<kTangential>& errors, Freedom freedom,
                                      const Outcome& outcome) {
   Impulses<kTangential> change = {};
   const double v_error = errors.velocity[kTangential];
@@ -375,15 +438,15 @@ Impulses<kTangential> ImpulseChanges(const Reduction<kTangential>& reduction, Re
   const bool has_end =
       outcome.termination == Termination::kConverged || outcome.termination == Termination::kLessAccurate;
   if (has_end && IsRigid(outcome.plan.model)) {
-    return Comparison<kTangential>(reduction, law, errors, outcome).Bound(has_exact_rank);
+    return Comparison<kTangential>(reduction, law, errors, freedom, outcome).Bound();
   }
   change.fill(kInfinity);
   return change;
 }
 
-template Impulses<1> ImpulseChanges<1>(const Reduction<1>&, RestitutionLaw, const ContactErrors<1>&, bool,
+template Impulses<1> ImpulseChanges<1>(const Reduction<1>&, RestitutionLaw, const ContactErrors<1>&, Freedom,
                                        const Outcome&);
-template Impulses<2> ImpulseChanges<2>(const Reduction<2>&, RestitutionLaw, const ContactErrors<2>&, bool,
+template Impulses<2> ImpulseChanges<2>(const Reduction<2>&, RestitutionLaw, const ContactErrors<2>&, Freedom,
                                        const Outcome&);
 
 }  // namespace ricochet

@@ -8,7 +8,8 @@
 // In a plane it is proved. In space it takes the slopes of v at the two ends alone, which proves it unless v almost
 // returns to 0 in between. The errors of A itself come on top. No bound is known, and it is infinite, where the model
 // is not that of a rigid contact under Coulomb's law, where static friction alone holds the contact or may do so, where
-// rounding may decide whether the contact approaches or locks, and where Wtt is singular beside rows that are 0.
+// rounding may decide whether the contact approaches or locks, and where Wtt is singular by anything but rows that are
+// 0 and a single free coordinate.
 
 #ifndef RICOCHET_CORE_ANSWER_IMPULSE_CHANGES_H_
 #define RICOCHET_CORE_ANSWER_IMPULSE_CHANGES_H_
@@ -34,12 +35,17 @@ struct ContactErrors {
 template <size_t kTangential>
 using Impulses = std::array<double, kTangential + 1>;
 
-// The outcome is that of the reduction, with its timeline and its effective coefficients. `has_exact_rank` says that W
-// of A and of B has the rank one for reasons of structure, so that both lock where one does.
+// What moves the contact point, of A and of B alike.
+enum class Freedom {
+  kMany,             // Two free coordinates or more.
+  kOneBesideOthers,  // One free coordinate, so that W = y y^T. Coordinates that are held, or the surface, move, too.
+  kOneAlone,         // The same where nothing else moves: (u, v) = y q', and both impacts lock where one does.
+};
+
+// The outcome is that of the reduction, with its timeline and its effective coefficients.
 template <size_t kTangential>
 Impulses<kTangential> ImpulseChanges(const Reduction<kTangential>& reduction, RestitutionLaw law,
-                                     const ContactErrors<kTangential>& errors, bool has_exact_rank,
-                                     const Outcome& outcome);
+                                     const ContactErrors<kTangential>& errors, Freedom freedom, const Outcome& outcome);
 
 }  // namespace ricochet
 

@@ -70,7 +70,8 @@ absl::Status MakeOutcomeOf(const Problem& problem, const Impact& impact, double 
                            Outcome& outcome) {
   const bool separates = impact.regime == Regime::kSeparating;
   SetEnd(impact, outcome);
-  outcome.accuracy = {.relative_error = separates ? 0.0 : error, .kind = AccuracyKind::kBound};
+  // Where the contact separates, its velocity is a product that was rounded once.
+  outcome.accuracy = {.relative_error = separates ? 0x1p-53 : error, .kind = AccuracyKind::kBound};
   SetErrors(errors, outcome);
   const auto state_at = [&](double tau) {
     if (separates) return MakeState(problem, tau, problem.omega_minus, 0.0);

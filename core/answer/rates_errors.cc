@@ -65,18 +65,22 @@ ContactErrors<kTangential> ErrorsOf(const Scene& scene, const Reduction<kTangent
   return of;
 }
 
-// True if W = y y^T and (u, v) = y z for any M and J: one coordinate is free, and nothing else moves the contact.
-bool HasExactRankOne(const Scene& scene, size_t free) {
-  return free == 1 && !HoldsCoordinates(scene.system) && !scene.surface_velocity.has_value();
+// Whatever the numbers of M and J are.
+Freedom FreedomOf(const Scene& scene, const Mechanism& mechanism, const std::vector<bool>& is_free) {
+  if (std::count(is_free.begin(), is_free.end(), true) != 1) return Freedom::kMany;
+  for (size_t i = 0; i < is_free.size(); ++i) {
+    if (!is_free[i] && mechanism.rates[i] != 0.0) return Freedom::kOneBesideOthers;
+  }
+  return scene.surface_velocity.has_value() ? Freedom::kOneBesideOthers : Freedom::kOneAlone;
 }
 
 // The errors of the impulses: those of the model, and what errors of its contact add.
 template <size_t kTangential>
 Impulses<kTangential> TotalErrors(const Scene& scene, const Reduction<kTangential>& reduction,
-                                  const MechanismErrors& errors, bool has_exact_rank, const Outcome& outcome) {
+                                  const MechanismErrors& errors, Freedom freedom, const Outcome& outcome) {
   Impulses<kTangential> sum = ImpulseChanges(reduction, LawAndCoefficientOf(scene.restitution).law,
-                                             ErrorsOf(scene, reduction, errors), has_exact_rank, outcome);
-  if (outcome.regime == Regime::kSeparating) return sum;
+                                             ErrorsOf(scene, reduction, errors), freedom, outcome);
+  if (outcome.regime == Regime::kSeparating || outcome.regime == Regime::kLocked) return sum;
   for (size_t i = 0; i < kTangential; ++i) sum[i] += outcome.errors.tangential_n_s.value_or(kInfinity);
   sum[kTangential] += outcome.errors.normal_total_n_s.value_or(kInfinity);
   return sum;
@@ -85,20 +89,39 @@ Impulses<kTangential> TotalErrors(const Scene& scene, const Reduction<kTangentia
 // Infinite factors count as 0 where the other one is 0.
 double Product(double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : std::fabs(x) * std::fabs(y); }
 
+// A mechanism whose one coordinate locks is at rest, whatever errors its impulses have.
+void SetErrorsAtRest(const Mechanism& mechanism, Outcome& outcome) {
+  const size_t n = mechanism.rates.size();
+  for (size_t i = 0; i < n; ++i) {
+    double lost = 0.0, size = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+      const double part = mechanism.mass_matrix[i * n + k] * mechanism.rates[k];
+      lost += part;
+      size += std::fabs(part);
+    }
+    outcome.errors.rates_after[i] = std::fabs(outcome.rates_after[i]);
+    outcome.errors.momentum_change[i] =
+        std::fabs(outcome.momentum_change[i] + lost) + static_cast<double>(n + 2) * kUnit * size;
+  }
+}
+
 template <size_t kTangential>
 void Set(const Scene& scene, const Reduction<kTangential>& reduction, Outcome& outcome) {
   const auto& mechanism = std::get<Mechanism>(scene.system);
   const size_t n = mechanism.rates.size();
   constexpr size_t kDirections = kTangential + 1;
   const MechanismErrors errors(mechanism);
-  const std::vector<Eigen::Index> free = FreeCoordinates(mechanism);
+  std::vector<bool> is_free(n);
+  for (const Eigen::Index i : FreeCoordinates(mechanism)) is_free[static_cast<size_t>(i)] = true;
   const Impulses<kTangential> of_impulse =
-      TotalErrors(scene, reduction, errors, kTangential == 1 && HasExactRankOne(scene, free.size()), outcome);
+      TotalErrors(scene, reduction, errors, FreedomOf(scene, mechanism, is_free), outcome);
+  if (outcome.regime == Regime::kLocked && of_impulse[kTangential] < kInfinity) {
+    return SetErrorsAtRest(mechanism, outcome);
+  }
   Impulses<kTangential> impulse;
   std::copy_n(outcome.impulse.tangential_n_s.begin(), kTangential, impulse.begin());
   impulse[kTangential] = outcome.impulse.normal_total_n_s;
-  std::vector<bool> is_free(n);
-  for (const Eigen::Index i : free) is_free[static_cast<size_t>(i)] = true;
+  const bool is_still = impulse == Impulses<kTangential>{} && of_impulse == Impulses<kTangential>{};
   for (size_t i = 0; i < n; ++i) {
     double rate = 0.0, size = 0.0, momentum = 0.0, momentum_size = 0.0;
     for (size_t j = 0; j < kDirections; ++j) {
@@ -119,7 +142,7 @@ void Set(const Scene& scene, const Reduction<kTangential>& reduction, Outcome& o
     }
     constexpr double kRoundings = (kDirections + 2) * kUnit;
     outcome.errors.rates_after[i] =
-        is_free[i] ? 1.01 * rate + kRoundings * (size + std::fabs(mechanism.rates[i])) : 0.0;
+        is_free[i] && !is_still ? 1.01 * rate + kRoundings * (size + std::fabs(mechanism.rates[i])) : 0.0;
     outcome.errors.momentum_change[i] = 1.01 * momentum + kRoundings * momentum_size;
   }
 }

@@ -25,7 +25,7 @@
 #include "core/scene/field.h"
 #include "proto/wire/scene.h"
 #include "ricochet/plan.h"
-#include "server/base/command_line.h"
+#include "server/options.h"
 
 namespace {
 

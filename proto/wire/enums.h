@@ -4,7 +4,18 @@
 #ifndef RICOCHET_PROTO_WIRE_ENUMS_H_
 #define RICOCHET_PROTO_WIRE_ENUMS_H_
 
+#include <google/protobuf/descriptor.h>
+
+#include <string>
+
+#include "absl/strings/strip.h"
+
 namespace ricochet {
+
+// Returns the words with which every name of an enum of the service begins: "REGIME_" of REGIME_UNSPECIFIED.
+inline std::string EnumPrefix(const google::protobuf::EnumDescriptor& type) {
+  return std::string(absl::StripSuffix(type.value(0)->name(), "UNSPECIFIED"));
+}
 
 // The enum on the other side of the wire. Each header of this folder states the pairs of its proto.
 template <typename Enum>

@@ -10,6 +10,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/invariant.h"
+#include "proto/wire/enums.h"
 #include "python/module/exceptions.h"
 #include "python/module/record.h"
 #include "ricochet/contact_matrix.h"
@@ -58,12 +59,6 @@ std::optional<absl::string_view> Utf8(PyObject* value) {
   if (text != nullptr) return absl::string_view(text, static_cast<size_t>(size));
   PyErr_Clear();
   return std::nullopt;
-}
-
-py::list NamesOf(const google::protobuf::Descriptor& type) {
-  py::list names;
-  for (int i = 0; i < type.field_count(); ++i) names.append(type.field(i)->name());
-  return names;
 }
 
 // Returns whether `values` is a dictionary or another mapping, and sets `dictionary` to it.
@@ -184,7 +179,7 @@ void Filler::Fill(py::handle values, Message& message, const Place* place) {
       const FieldDescriptor* const field = name.has_value() ? type.FindFieldByName(std::string(*name)) : nullptr;
       if (field == nullptr) {
         const std::string shown = py::str(key);
-        Ask("unknown_field", Place{.outer = place, .name = shown}.Text(), key, NamesOf(type));
+        Ask("unknown_field", Place{.outer = place, .name = shown}.Text(), key, FieldNames(type));
       } else if (!held.is_none() || !MayBeAbsent(*field)) {
         FillField(held, message, *field, there);
       }

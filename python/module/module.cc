@@ -131,9 +131,7 @@ py::list NamesOfEnum(const std::string& name) {
 py::list NamesOfFields(const std::string& name) {
   const auto* const type = DescriptorPool::generated_pool()->FindMessageTypeByName(absl::StrCat("ricochet.v1.", name));
   CheckInvariant(type != nullptr, "Python asks for the fields of a message of the service");
-  py::list names;
-  for (int i = 0; i < type->field_count(); ++i) names.append(type->field(i)->name());
-  return names;
+  return FieldNames(*type);
 }
 
 void AddSolver(py::module_& module) {

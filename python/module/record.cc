@@ -1,6 +1,5 @@
 #include "python/module/record.h"
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -142,15 +141,6 @@ bool IsRead(py::handle record) { return Py_TYPE(record.ptr()) == RecordType(/*is
 
 }  // namespace
 
-std::string EnumPrefix(const EnumDescriptor& type) {
-  std::string prefix = type.value(0)->name();
-  for (int i = 1; i < type.value_count(); ++i) {
-    const std::string& name = type.value(i)->name();
-    prefix.erase(std::mismatch(prefix.begin(), prefix.end(), name.begin(), name.end()).first, prefix.end());
-  }
-  return prefix.substr(0, prefix.rfind('_') + 1);
-}
-
 py::object EnumName(const EnumDescriptor& type, int number) {
   return py::reinterpret_borrow<py::object>(NamesOf(type).at(static_cast<size_t>(number)));
 }
@@ -158,6 +148,12 @@ py::object EnumName(const EnumDescriptor& type, int number) {
 py::list EnumNames(const EnumDescriptor& type) {
   py::list names;
   for (PyObject* name : NamesOf(type)) names.append(py::handle(name));
+  return names;
+}
+
+py::list FieldNames(const Descriptor& type) {
+  py::list names;
+  for (const Entry& entry : EntriesOf(type)) names.append(py::handle(entry.name));
   return names;
 }
 

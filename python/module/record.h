@@ -12,19 +12,18 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
-#include <string>
 
 #include "ricochet/solver.h"
 
 namespace ricochet::python {
 
-// Returns the words with which every name of an enum begins: "REGIME_".
-std::string EnumPrefix(const google::protobuf::EnumDescriptor& type);
-
 // Returns the name of a number that the enum has: "REBOUND". EnumNames has those of all its numbers, which are 0, 1,
 // ...
 pybind11::object EnumName(const google::protobuf::EnumDescriptor& type, int number);
 pybind11::list EnumNames(const google::protobuf::EnumDescriptor& type);
+
+// Returns the names of all fields that a message may have.
+pybind11::list FieldNames(const google::protobuf::Descriptor& type);
 
 // Returns the message as a record.
 pybind11::object RecordOf(const google::protobuf::Message& message);

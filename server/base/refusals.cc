@@ -19,38 +19,31 @@ absl::Status Refusal(absl::StatusCode code, ErrorReason reason, const std::strin
   return refusal;
 }
 
+absl::Status NoRoom(const std::string& message) {
+  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls, message, milliseconds(1000));
+}
+
 }  // namespace
 
 absl::Status TooManyCalls(const std::string& what, int limit) {
-  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
-                 absl::StrCat("the server is at its limit of ", limit, " ", what, "; try again later"),
-                 milliseconds(1000));
+  return NoRoom(absl::StrCat("the server is at its limit of ", limit, " ", what, "; try again later"));
 }
 
 absl::Status TooManyCallsOfPeer(const std::string& what, int limit) {
-  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
-                 absl::StrCat("this client is at its limit of ", limit, " ", what, "; try again later"),
-                 milliseconds(1000));
+  return NoRoom(absl::StrCat("this client is at its limit of ", limit, " ", what, "; try again later"));
 }
 
 absl::Status NoMemory(int64_t limit) {
-  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
-                 absl::StrCat("the requests and answers of all calls hold the ", limit >> 20,
-                              " MiB that the server has for them; try again later"),
-                 milliseconds(1000));
+  return NoRoom(absl::StrCat("the requests and answers of all calls hold the ", limit >> 20,
+                             " MiB that the server has for them; try again later"));
 }
 
 absl::Status NoMemoryOfPeer(int64_t limit) {
-  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
-                 absl::StrCat("the requests and answers of this client's calls hold ", limit >> 20,
-                              " MiB, its limit; read the answers, and try again later"),
-                 milliseconds(1000));
+  return NoRoom(absl::StrCat("the requests and answers of this client's calls hold ", limit >> 20,
+                             " MiB, its limit; read the answers, and try again later"));
 }
 
-absl::Status NoThread() {
-  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
-                 "the server has no thread for another call; try again later", milliseconds(1000));
-}
+absl::Status NoThread() { return NoRoom("the server has no thread for another call; try again later"); }
 
 absl::Status Overloaded(std::chrono::duration<double> wait) {
   const auto delay = std::chrono::duration_cast<milliseconds>(wait);

@@ -40,8 +40,6 @@ class ConnectionCounts {
   }
 
   int in_all() const { return in_all_; }
-  // The peers that have a connection.
-  size_t peers() const { return per_peer_.size(); }
 
  private:
   const ConnectionLimits limits_;

@@ -42,7 +42,8 @@ apt purge libricochet-client-dev
 
 say "Installing what the packages depend on or recommend, and the packages"
 # shellcheck disable=SC2016  # dpkg-deb replaces what begins with a dollar sign.
-dependencies=$(for deb in "$directory"/*.deb; do dpkg-deb --showformat='${Depends}, ${Recommends}\n' --show "$deb"; done |
+fields='${Depends}, ${Recommends}\n'
+dependencies=$(for deb in "$directory"/*.deb; do dpkg-deb --showformat="$fields" --show "$deb"; done |
   sed 's/([^)]*)//g; s/|[^,]*//g' | tr ',' '\n' | tr -d ' ' | grep -Ev '^((lib)?ricochet.*|)$' | sort -u)
 # shellcheck disable=SC2086  # A word is a package.
 apt install --no-install-recommends $dependencies adduser cmake g++ make pkg-config python3-xarray

@@ -139,21 +139,7 @@ bool IsInOtherOrder(const ConformanceCase& one, VectorXd after, double tolerance
   });
 }
 
-// Returns the law that most answers obey at one contact. Where several do as often, the last of them.
-std::string CommonestLaw(const SimulatorAnswers& answers, double tolerance) {
-  std::map<std::string, int> counts;
-  for (const SimulatorAnswer& answer : answers.answers) {
-    for (const std::string& law : GradeCase(answer, "", tolerance).obeyed) ++counts[law];
-  }
-  std::string commonest = kConformanceLaws.front();
-  for (const std::string& law : kConformanceLaws) {
-    if (counts[law] >= counts[commonest]) commonest = law;
-  }
-  return commonest;
-}
-
-}  // namespace
-
+// Grades one answer by itself; `law` is the one that it is judged by.
 CaseGrade GradeCase(const SimulatorAnswer& answer, const std::string& law, double tolerance) {
   const ConformanceCase& one = *answer.asked;
   const VectorXd& after = answer.velocity_after;
@@ -176,6 +162,21 @@ CaseGrade GradeCase(const SimulatorAnswer& answer, const std::string& law, doubl
   grade.symmetry = SymmetryCheck(one, after, tolerance);
   return grade;
 }
+
+// Returns the law that most answers obey at one contact. Where several do as often, the last of them.
+std::string CommonestLaw(const SimulatorAnswers& answers, double tolerance) {
+  std::map<std::string, int> counts;
+  for (const SimulatorAnswer& answer : answers.answers) {
+    for (const std::string& law : GradeCase(answer, "", tolerance).obeyed) ++counts[law];
+  }
+  std::string commonest = kConformanceLaws.front();
+  for (const std::string& law : kConformanceLaws) {
+    if (counts[law] >= counts[commonest]) commonest = law;
+  }
+  return commonest;
+}
+
+}  // namespace
 
 int Grade::RightCases() const {
   return static_cast<int>(std::count_if(cases.begin(), cases.end(), [](const CaseGrade& one) { return one.right; }));

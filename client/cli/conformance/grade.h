@@ -52,9 +52,6 @@ struct Grade {
 // The law of the demand; else each answer's own; else the one that most answers of one contact obey.
 Grade GradeOf(const SimulatorAnswers& answers, const GradeDemand& demand);
 
-// One answer by itself; `law` is the one that it is judged by.
-CaseGrade GradeCase(const SimulatorAnswer& answer, const std::string& law, double tolerance);
-
 }  // namespace ricochet::cli
 
 #endif  // RICOCHET_CLIENT_CLI_CONFORMANCE_GRADE_H_

@@ -29,8 +29,6 @@ CLI::Option* AddList(CLI::App& app, const char* name, std::vector<std::string>& 
   return AddRepeatable(app, name, values, help)->delimiter(',');
 }
 
-void AddServerOptions(CLI::App& app, CommonOptions& options) { AddConnectionOptions(app, options.connection); }
-
 void AddOutputOptions(CLI::App& app, CommonOptions& options, absl::Span<const Format> formats) {
   options.format = formats.front();
   if (formats.size() > 1) {

@@ -51,8 +51,6 @@ struct CommonOptions {
   std::string output;             // Empty: standard output.
 };
 
-void AddServerOptions(CLI::App& app, CommonOptions& options);
-
 // The formats of an answer that is one message, of one that may have many rows, and of a sweep.
 inline constexpr std::array kMessageFormats = {Format::kText, Format::kJson, Format::kCsv};
 inline constexpr std::array kRowFormats = {Format::kText, Format::kJson, Format::kJsonLines, Format::kCsv};

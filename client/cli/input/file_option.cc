@@ -44,6 +44,12 @@ CLI::Option* MarkFile(FileUse use, CLI::Option* option, const std::vector<std::s
   return option->check(CLI::Validator(check, "", MarkOf(use)));
 }
 
+void AddHtmlOption(CLI::App& app, const std::string& what, std::string& file) {
+  const std::string help =
+      absl::StrCat("Write ", what, " as one page that needs nothing beside it; - for standard output");
+  MarkFile(FileUse::kWritten, app.add_option("--html", file, help), {"html", "htm"})->type_name("FILE.html");
+}
+
 std::optional<FileUse> FileUseOf(CLI::Option& option) {
   for (const FileUse use : {FileUse::kRead, FileUse::kWritten}) {
     if (Has(option, use)) return use;

@@ -18,6 +18,9 @@ namespace ricochet::cli {
 // empty, a name that is not standard output and ends in none of them.
 CLI::Option* MarkFile(FileUse use, CLI::Option* option, const std::vector<std::string>& endings = {});
 
+// Adds --html, which writes `what` as a page.
+void AddHtmlOption(CLI::App& app, const std::string& what, std::string& file);
+
 // The use that MarkFile said; none for an option of another kind.
 std::optional<FileUse> FileUseOf(CLI::Option& option);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "absl/algorithm/container.h"
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
@@ -33,23 +34,19 @@ const std::vector<Known>& AllKnown() {
 
 const Known& KnownAs(Format format) { return AllKnown()[static_cast<size_t>(format)]; }
 
-bool Has(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 // Returns the flag that writes files of this ending, or null.
 const char* FlagForEnding(const std::string& ending) {
-  if (Has({"svg", "png", "pdf", "jpg", "jpeg", "gif", "eps", "ps", "webp", "bmp", "tif", "tiff"}, ending)) {
-    return "--plot";
-  }
-  return Has({"html", "htm"}, ending) ? "--html" : nullptr;
+  constexpr const char* kPictures[] = {"svg", "png", "pdf",  "jpg", "jpeg", "gif",
+                                       "eps", "ps",  "webp", "bmp", "tif",  "tiff"};
+  if (absl::c_linear_search(kPictures, ending)) return "--plot";
+  return ending == "html" || ending == "htm" ? "--html" : nullptr;
 }
 
 // True if the ending is that of a known kind of file.
 bool SaysAKind(const std::string& ending) {
   return FlagForEnding(ending) != nullptr ||
          std::any_of(AllKnown().begin(), AllKnown().end(),
-                     [&ending](const Known& one) { return Has(one.endings, ending); });
+                     [&ending](const Known& one) { return absl::c_linear_search(one.endings, ending); });
 }
 
 std::string EndingsOf(absl::Span<const Format> formats) {
@@ -88,12 +85,12 @@ std::string JoinedEndings(const std::vector<std::string>& endings) {
 absl::StatusOr<Format> ChooseFormat(absl::Span<const Format> formats, const std::string& named,
                                     const std::string& path) {
   const std::string ending = EndingOf(path);
-  const auto said =
-      std::find_if(formats.begin(), formats.end(), [&](Format format) { return Has(KnownAs(format).endings, ending); });
+  const auto said = std::find_if(formats.begin(), formats.end(),
+                                 [&](Format format) { return absl::c_linear_search(KnownAs(format).endings, ending); });
   if (!named.empty()) {
     const Format format =
         *std::find_if(formats.begin(), formats.end(), [&](Format one) { return FormatName(one) == named; });
-    if (!SaysAKind(ending) || Has(KnownAs(format).endings, ending)) return format;
+    if (!SaysAKind(ending) || absl::c_linear_search(KnownAs(format).endings, ending)) return format;
     return absl::InvalidArgumentError(absl::StrCat("-o ", path, ": must not end in .", ending, " beside --format ",
                                                    named, ", whose files end in ", EndingsOf({&format, 1})));
   }

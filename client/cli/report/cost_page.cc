@@ -76,12 +76,9 @@ std::string MethodsTable(const CostChunk& study) {
 }
 
 std::string PicksTable(const CostChunk& study) {
-  std::string text = "<table class=\"words\">\n<thead><tr><th>tolerance</th><th>method</th></tr></thead>\n<tbody>\n";
-  for (const CostPick& pick : study.summary->picks) {
-    absl::StrAppend(&text, "<tr>", HtmlElement("td", PickRangeText(pick)), HtmlElement("td", PickName(study, pick)),
-                    "</tr>\n");
-  }
-  return text + "</tbody>\n</table>\n";
+  std::vector<std::vector<std::string>> rows = {{"tolerance", "method"}};
+  for (const CostPick& pick : study.summary->picks) rows.push_back({PickRangeText(pick), PickName(study, pick)});
+  return HtmlTable(rows, "words");
 }
 
 std::string Notes(const CostChunk& study) {

@@ -44,8 +44,10 @@ std::string EndText(MultiContactEnd end) {
 }
 
 std::string WithUnit(const std::string& name, double value) {
-  const std::string unit = UnitOfOutput(name);
-  return absl::StrCat(Rounded(value), unit.empty() ? "" : " ", unit);
+  const bool is_of_body = absl::StartsWith(name, "body_");
+  const bool is_speed = is_of_body || absl::StartsWith(name, "contact_");
+  const bool is_rate = is_of_body && absl::StrContains(name, ".rate");
+  return absl::StrCat(Rounded(value), is_rate ? " rad/s" : is_speed ? " m/s" : "");
 }
 
 // True if an outcome is known to its end.
@@ -264,12 +266,6 @@ std::vector<std::string> OutputNames(const MultiContactRequest& request, const A
     names.push_back(std::move(name));
   }
   return names;
-}
-
-std::string UnitOfOutput(const std::string& name) {
-  if (absl::StartsWith(name, "contact_")) return "m/s";
-  if (!absl::StartsWith(name, "body_")) return "";
-  return absl::StrContains(name, ".rate") ? "rad/s" : "m/s";
 }
 
 std::string MultiContactText(const MultiContactRequest& request, const MultiContactResponse& response) {

@@ -20,9 +20,6 @@ std::string MultiContactCsv(const MultiContactRequest& request, const MultiConta
 // The names of the numbers of an outcome: its contact velocities, and the velocities of the system if they are others.
 std::vector<std::string> OutputNames(const MultiContactRequest& request, const AttainedOutcome& outcome);
 
-// Returns "m/s", "rad/s" or nothing for an output.
-std::string UnitOfOutput(const std::string& name);
-
 // The strike of planar bodies, the outcomes of the first state as points on the bars of what is possible, and the
 // outcomes of springs over the stiffness, if a range of it was asked for.
 Plot MultiContactPlot(const MultiContactRequest& request, const MultiContactResponse& response);

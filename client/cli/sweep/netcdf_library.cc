@@ -8,18 +8,6 @@
 namespace ricochet::cli {
 namespace {
 
-// Finds functions in a loaded library and remembers the first that is missing.
-struct Finder {
-  void* library = nullptr;
-  const char* missing = nullptr;
-
-  template <typename Function>
-  void operator()(const char* name, Function*& function) {
-    function = reinterpret_cast<Function*>(dlsym(library, name));
-    if (function == nullptr && missing == nullptr) missing = name;
-  }
-};
-
 absl::Status Unusable(absl::string_view why) {
   return absl::FailedPreconditionError(
       absl::StrCat("NetCDF files need ", RICOCHET_NETCDF_LIBRARY, ", which cannot be loaded: ", why,
@@ -33,29 +21,8 @@ absl::Status Load(NetcdfLibrary& netcdf) {
   // comes before anything else of NetCDF.
   using LeaveAloneAtExit = int();
   if (auto* const leave = reinterpret_cast<LeaveAloneAtExit*>(dlsym(library, "H5dont_atexit"))) leave();
-  Finder find = {.library = library};
-  find("nc_abort", netcdf.abort);
-  find("nc_close", netcdf.close);
-  find("nc_create", netcdf.create);
-  find("nc_def_dim", netcdf.def_dim);
-  find("nc_def_var", netcdf.def_var);
-  find("nc_def_var_fill", netcdf.def_var_fill);
-  find("nc_enddef", netcdf.enddef);
-  find("nc_get_att_text", netcdf.get_att_text);
-  find("nc_get_var_double", netcdf.get_var_double);
-  find("nc_inq_att", netcdf.inq_att);
-  find("nc_inq_dimlen", netcdf.inq_dimlen);
-  find("nc_inq_dimname", netcdf.inq_dimname);
-  find("nc_inq_nvars", netcdf.inq_nvars);
-  find("nc_inq_var", netcdf.inq_var);
-  find("nc_open", netcdf.open);
-  find("nc_put_att_text", netcdf.put_att_text);
-  find("nc_put_att_uchar", netcdf.put_att_uchar);
-  find("nc_put_vara_double", netcdf.put_vara_double);
-  find("nc_put_vara_longlong", netcdf.put_vara_longlong);
-  find("nc_put_vara_uchar", netcdf.put_vara_uchar);
-  find("nc_strerror", netcdf.strerror);
-  return find.missing == nullptr ? absl::OkStatus() : Unusable(absl::StrCat("it has no function ", find.missing));
+  netcdf = {.library = library};
+  return netcdf.missing == nullptr ? absl::OkStatus() : Unusable(absl::StrCat("it has no function ", netcdf.missing));
 }
 
 struct Loaded {
@@ -69,6 +36,12 @@ const Loaded& TheLibrary() {
 }
 
 }  // namespace
+
+NetcdfLibrary::Symbol NetcdfLibrary::Find(const char* name) {
+  void* const address = library == nullptr ? nullptr : dlsym(library, name);
+  if (address == nullptr && missing == nullptr) missing = name;
+  return {address};
+}
 
 absl::Status LoadNetcdf() { return TheLibrary().status; }
 

@@ -10,29 +10,43 @@
 
 namespace ricochet::cli {
 
-// Each member is the function nc_... of its name.
 struct NetcdfLibrary {
-  decltype(&nc_abort) abort = nullptr;
-  decltype(&nc_close) close = nullptr;
-  decltype(&nc_create) create = nullptr;
-  decltype(&nc_def_dim) def_dim = nullptr;
-  decltype(&nc_def_var) def_var = nullptr;
-  decltype(&nc_def_var_fill) def_var_fill = nullptr;
-  decltype(&nc_enddef) enddef = nullptr;
-  decltype(&nc_get_att_text) get_att_text = nullptr;
-  decltype(&nc_get_var_double) get_var_double = nullptr;
-  decltype(&nc_inq_att) inq_att = nullptr;
-  decltype(&nc_inq_dimlen) inq_dimlen = nullptr;
-  decltype(&nc_inq_dimname) inq_dimname = nullptr;
-  decltype(&nc_inq_nvars) inq_nvars = nullptr;
-  decltype(&nc_inq_var) inq_var = nullptr;
-  decltype(&nc_open) open = nullptr;
-  decltype(&nc_put_att_text) put_att_text = nullptr;
-  decltype(&nc_put_att_uchar) put_att_uchar = nullptr;
-  decltype(&nc_put_vara_double) put_vara_double = nullptr;
-  decltype(&nc_put_vara_longlong) put_vara_longlong = nullptr;
-  decltype(&nc_put_vara_uchar) put_vara_uchar = nullptr;
-  decltype(&nc_strerror) strerror = nullptr;
+  // What dlsym has found, as a function of any type.
+  struct Symbol {
+    void* address = nullptr;
+
+    template <typename Function>
+    operator Function*() const {
+      return reinterpret_cast<Function*>(address);
+    }
+  };
+  // Finds a function, and notes the first that is missing.
+  Symbol Find(const char* name);
+
+  void* library = nullptr;
+  const char* missing = nullptr;
+  // Each is the function nc_... of its name.
+  decltype(&nc_abort) abort = Find("nc_abort");
+  decltype(&nc_close) close = Find("nc_close");
+  decltype(&nc_create) create = Find("nc_create");
+  decltype(&nc_def_dim) def_dim = Find("nc_def_dim");
+  decltype(&nc_def_var) def_var = Find("nc_def_var");
+  decltype(&nc_def_var_fill) def_var_fill = Find("nc_def_var_fill");
+  decltype(&nc_enddef) enddef = Find("nc_enddef");
+  decltype(&nc_get_att_text) get_att_text = Find("nc_get_att_text");
+  decltype(&nc_get_var_double) get_var_double = Find("nc_get_var_double");
+  decltype(&nc_inq_att) inq_att = Find("nc_inq_att");
+  decltype(&nc_inq_dimlen) inq_dimlen = Find("nc_inq_dimlen");
+  decltype(&nc_inq_dimname) inq_dimname = Find("nc_inq_dimname");
+  decltype(&nc_inq_nvars) inq_nvars = Find("nc_inq_nvars");
+  decltype(&nc_inq_var) inq_var = Find("nc_inq_var");
+  decltype(&nc_open) open = Find("nc_open");
+  decltype(&nc_put_att_text) put_att_text = Find("nc_put_att_text");
+  decltype(&nc_put_att_uchar) put_att_uchar = Find("nc_put_att_uchar");
+  decltype(&nc_put_vara_double) put_vara_double = Find("nc_put_vara_double");
+  decltype(&nc_put_vara_longlong) put_vara_longlong = Find("nc_put_vara_longlong");
+  decltype(&nc_put_vara_uchar) put_vara_uchar = Find("nc_put_vara_uchar");
+  decltype(&nc_strerror) strerror = Find("nc_strerror");
 };
 
 // Loads the library, once. Errors: FAILED_PRECONDITION, with the name of the library, if that cannot be done.

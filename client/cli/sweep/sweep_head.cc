@@ -11,13 +11,6 @@
 namespace ricochet::cli {
 namespace {
 
-// Returns "KEY": and the text as JSON.
-std::string Pair(const char* key, const std::string& text) {
-  std::string pair = absl::StrCat("\"", key, "\":");
-  AppendJson(text, pair);
-  return pair;
-}
-
 std::string MeaningOfPath(const std::string& path) {
   if (path == "index") return "number of the point in the grid";
   if (path == "row") return "number of the row, from 0";
@@ -31,7 +24,7 @@ std::string MeaningOfPath(const std::string& path) {
 std::string AxisJson(const v1::Axis& axis) {
   std::string json = JsonOf(axis);
   json.pop_back();
-  return absl::StrCat(json, ",", Pair("unit", UnitOfPath(axis.path())), "}");
+  return absl::StrCat(json, ",", JsonMember("unit", UnitOfPath(axis.path())), "}");
 }
 
 }  // namespace
@@ -39,8 +32,8 @@ std::string AxisJson(const v1::Axis& axis) {
 std::string ColumnsJson(const std::vector<std::string>& names) {
   std::string json = "[";
   for (const std::string& name : names) {
-    absl::StrAppend(&json, json.back() == '[' ? "" : ",", "{", Pair("name", name), ",", Pair("unit", UnitOfPath(name)),
-                    ",", Pair("meaning", MeaningOfPath(name)), "}");
+    absl::StrAppend(&json, json.back() == '[' ? "" : ",", "{", JsonMember("name", name), ",",
+                    JsonMember("unit", UnitOfPath(name)), ",", JsonMember("meaning", MeaningOfPath(name)), "}");
   }
   return json + "]";
 }
@@ -48,9 +41,9 @@ std::string ColumnsJson(const std::vector<std::string>& names) {
 std::string SweepHeadJson(const SweepRequest& request, const std::vector<std::string>& names,
                           const EngineInfo& engine) {
   const v1::SweepRequest proto = ToProto(request);
-  std::string json =
-      absl::StrCat("{\"engine\":", JsonOf(ToProto(engine)), ",", Pair("grid_fingerprint", GridFingerprint(request)),
-                   ",", Pair("combination", v1::SweepRequest::Combination_Name(proto.combination())), ",\"axes\":[");
+  std::string json = absl::StrCat(
+      "{\"engine\":", JsonOf(ToProto(engine)), ",", JsonMember("grid_fingerprint", GridFingerprint(request)), ",",
+      JsonMember("combination", v1::SweepRequest::Combination_Name(proto.combination())), ",\"axes\":[");
   for (const v1::Axis& axis : proto.axes()) {
     absl::StrAppend(&json, json.back() == '[' ? "" : ",", AxisJson(axis));
   }

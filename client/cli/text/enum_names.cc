@@ -5,7 +5,6 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_replace.h"
-#include "absl/strings/strip.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
 #include "proto/wire/sweep.h"
@@ -28,8 +27,7 @@ std::string Words(const std::string& name, const char* separator) {
 }  // namespace
 
 std::string BareName(const google::protobuf::EnumValueDescriptor& value) {
-  const std::string prefix(absl::StripSuffix(value.type()->FindValueByNumber(0)->name(), "UNSPECIFIED"));
-  return std::string(absl::StripPrefix(value.name(), prefix));
+  return value.name().substr(EnumPrefix(*value.type()).size());
 }
 
 const std::string& RegimeName(Regime regime) {

@@ -16,14 +16,15 @@
 namespace ricochet::cli {
 namespace {
 
+constexpr size_t kHelpWidth = 80;
 constexpr size_t kLongLine = 100;
-
-}  // namespace
 
 std::string Wrap(const std::string& text, size_t indent, size_t start) {
   return WrapWords(text, kHelpWidth, start, indent);
 }
 
+// Lines that begin with two spaces are examples and stay as they are. The others are sentences: a line of more than
+// kLongLine columns goes on in the next.
 std::string WrapFooter(const std::string& footer) {
   std::string text;
   std::string sentences;
@@ -40,6 +41,8 @@ std::string WrapFooter(const std::string& footer) {
   if (!sentences.empty()) absl::StrAppend(&text, Wrap(sentences, 0, 0), "\n");
   return text;
 }
+
+}  // namespace
 
 std::string HelpFormat::Entry(const std::string& name, const std::string& description) const {
   const size_t indent = get_column_width();

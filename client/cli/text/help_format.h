@@ -5,20 +5,9 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Formatter.hpp>
-#include <cstddef>
 #include <string>
 
 namespace ricochet::cli {
-
-inline constexpr size_t kHelpWidth = 80;
-
-// Returns `text` in lines of at most kHelpWidth columns, all but the first indented by `indent`; the first begins at
-// the column `start`. Words are never broken.
-std::string Wrap(const std::string& text, size_t indent, size_t start);
-
-// Returns a footer in lines of at most kHelpWidth columns. Lines that begin with two spaces are examples and stay as
-// they are. The others are sentences: a line of more than 100 columns goes on in the next.
-std::string WrapFooter(const std::string& footer);
 
 class HelpFormat final : public CLI::Formatter {
  public:

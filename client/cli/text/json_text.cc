@@ -105,6 +105,12 @@ void AppendJson(absl::string_view words, std::string& text) {
   text += nlohmann::json(std::string(words)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+std::string JsonMember(absl::string_view key, absl::string_view words) {
+  std::string member = absl::StrCat("\"", key, "\":");
+  AppendJson(words, member);
+  return member;
+}
+
 std::string JsonOf(const Message& message) {
   std::string text;
   AppendMessage(message, text);

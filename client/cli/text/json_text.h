@@ -22,6 +22,9 @@ void AppendJson(int64_t number, std::string& text);
 // Appends a text in quotes.
 void AppendJson(absl::string_view words, std::string& text);
 
+// Returns "KEY": and the text in quotes.
+std::string JsonMember(absl::string_view key, absl::string_view words);
+
 // Returns the message on one line. Numbers and lists that are not set have their default value, except that an optional
 // number, which may be unknown, is null. Messages that are not set are left out.
 std::string JsonOf(const google::protobuf::Message& message);

@@ -17,10 +17,7 @@ namespace {
 
 bool terminal_counts = true;
 
-}  // namespace
-
-void ForgetTerminalWidth() { terminal_counts = false; }
-
+// Returns the columns of the terminal: COLUMNS if it is set, else those of standard output; `unknown` if it is none.
 size_t TerminalWidth(size_t unknown) {
   if (!terminal_counts) return unknown;
   const char* columns = std::getenv("COLUMNS");
@@ -30,6 +27,10 @@ size_t TerminalWidth(size_t unknown) {
   const bool is_terminal = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
   return is_terminal ? size.ws_col : unknown;
 }
+
+}  // namespace
+
+void ForgetTerminalWidth() { terminal_counts = false; }
 
 std::string Wrapped(const std::string& text, size_t indent) {
   return absl::StrCat(std::string(indent, ' '), WrapWords(text, TerminalWidth(/*unknown=*/80), indent, indent), "\n");

@@ -32,10 +32,7 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-// Returns the columns of the terminal: COLUMNS if it is set, else those of standard output; `unknown` if it is none.
-size_t TerminalWidth(size_t unknown);
-
-// From now on the width is unknown: text goes to a file, whose lines do not depend on the terminal of the run.
+// From now on the terminal counts as none: text goes to a file, whose lines do not depend on the terminal of the run.
 void ForgetTerminalWidth();
 
 // Returns the text in lines that fit into the terminal, or into 80 columns, each after `indent` spaces.

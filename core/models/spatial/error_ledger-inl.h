@@ -138,7 +138,8 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   }
   T ErrorOfF(const State<T>& at) const {
     if (problem_.HasNoFriction()) return T{0};
-    const T strayed = std::min(problem_.mu * sum_.strayed, T{2} * sum_.slip_rounding / problem_.smallest_root);
+    const T most = problem_.keeps_part > T{0} ? kInfinity<T> : T{2} * sum_.slip_rounding / problem_.smallest_root;
+    const T strayed = std::min(problem_.mu * sum_.strayed, most);
     return kSafetyOfImpulses * Size(sum_.known.f1, sum_.known.f2) + Size(sum_.doubtful.f1, sum_.doubtful.f2) +
            sum_.friction / problem_.smallest_root + strayed + f_rounding_ +
            T{4} * kEpsilon<T> * problem_.mu_static * (compression_end_tau_ + at.tau);

@@ -74,20 +74,21 @@ struct Contact {
 
   Matrix<T> w;
   T mu;
-  T velocity;      // max(|u0|, |v0|), to which errors of u are relative
-  T approach;      // |v0|
-  T rate;          // mu |Wtt| + |wtn|, the unit of 1/xi
-  T largest_root;  // square roots of the eigenvalues of Wtt, the smaller one not below rounding
-  T smallest_root;
-  T normal_root;  // sqrt(Wnn)
-  T steepest;     // the largest |dv/dtau| of slip
+  T velocity;       // max(|u0|, |v0|), to which errors of u are relative
+  T approach;       // |v0|
+  T rate;           // mu |Wtt| + |wtn|, the unit of 1/xi
+  T largest_root;   // square roots of the eigenvalues of Wtt, the smaller one not below rounding
+  T smallest_root;  // of those along which impulses move slip
+  T keeps_part;     // 1 if Wtt is singular and u has a part that no impulse moves, else 0
+  T normal_root;    // sqrt(Wnn)
+  T steepest;       // the largest |dv/dtau| of slip
 };
 
 template <typename T>
 struct ScaledProblem : Contact<T> {
   using Contact<T>::w, Contact<T>::mu, Contact<T>::velocity, Contact<T>::approach, Contact<T>::rate,
-      Contact<T>::largest_root, Contact<T>::smallest_root, Contact<T>::normal_root, Contact<T>::steepest,
-      Contact<T>::FrameAt, Contact<T>::SlopesAlong;
+      Contact<T>::largest_root, Contact<T>::smallest_root, Contact<T>::keeps_part, Contact<T>::normal_root,
+      Contact<T>::steepest, Contact<T>::FrameAt, Contact<T>::SlopesAlong;
 
   // `rank` is the rank of the problem's W.
   ScaledProblem(const Problem& problem, int rank);
@@ -147,7 +148,8 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
   velocity_in_range =
       rank == 3 || VelocityIsInRange(SpatialReduction{.w = problem.Delassus().w, .u0 = problem.u0, .v0 = problem.v0});
   // Where Wtt = 0 friction moves nothing, and any number serves.
-  const T smallest = SlipHasOneDirection() ? largest : w.TangentDeterminant() / largest;
+  const T smallest = w.tangent_is_singular ? largest : w.TangentDeterminant() / largest;
+  keeps_part = w.tangent_is_singular && !velocity_in_range ? T{1} : T{0};
   smallest_root = largest > T{0} ? std::sqrt(std::max(smallest, kEpsilon<T> * largest)) : T{1};
   normal_root = std::sqrt(w.w33);
   steepest = w.w33 + mu * coupling;

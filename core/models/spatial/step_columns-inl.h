@@ -62,6 +62,7 @@ HWY_INLINE void EachOfContact(A& a, B& b, const F& f) {
   f(a.rate, b.rate);
   f(a.largest_root, b.largest_root);
   f(a.smallest_root, b.smallest_root);
+  f(a.keeps_part, b.keeps_part);
   f(a.normal_root, b.normal_root);
   f(a.steepest, b.steepest);
 }

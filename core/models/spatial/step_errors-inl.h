@@ -97,11 +97,15 @@ struct StepErrors {
     const T coupled = contact.steepest - contact.w.w33;  // mu |wtn|
     return contact.normal_root * friction + Min(contact.normal_root * slip_rounding, coupled * strayed) + v_rounding;
   }
-  // Adds a stretch over which friction has a direction that is off by the rounding of slip over slip.
+  // Adds a stretch over which friction has a direction that is off by the rounding of slip over slip. Where slip keeps
+  // a part that no impulse moves, nothing makes up for the rounding of that: it turns friction for good.
   HWY_INLINE void Stray(const Contact<T>& contact, T length, T slip) {
     const T opposite{2};
-    const T error = contact.largest_root * slip_rounding;
-    strayed += length * Select(error < opposite * slip, error / slip, opposite);
+    const auto stray = [&](T error) { return length * Select(error < opposite * slip, error / slip, opposite); };
+    const T lasting = contact.keeps_part * contact.largest_root;
+    const T rounding = contact.largest_root * slip_rounding;
+    strayed += stray(rounding + lasting * friction);
+    friction += lasting * contact.mu * stray(rounding);
   }
   // The rounding of slip, in the norm of `friction`.
   HWY_INLINE static T SlipRounding(const Contact<T>& contact, T slip) {

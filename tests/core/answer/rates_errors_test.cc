@@ -40,6 +40,14 @@ TEST(RatesErrorsTest, ClaimNoLessThanTheyAreForMechanismsInSpace) {
   }
 }
 
+// Those that are held move on, so that slip keeps a part that no impulse changes.
+TEST(RatesErrorsTest, ClaimNoLessThanTheyAreForOneFreeCoordinateInSpace) {
+  const MechanismClaims claims = MechanismClaimsOf(/*in_space=*/true, /*hard=*/false, 400, kSeed, /*one_free=*/true);
+  EXPECT_GT(claims.rates.count(), 500);
+  ExpectHonest(claims.rates);
+  ExpectHonest(claims.momentum);
+}
+
 Outcome Solve(const Scene& scene) { return LocalSolver().Solve({.scene = scene})->outcome; }
 
 TEST(RatesErrorsTest, AreAFewRoundingsForAWellConditionedMechanism) {

@@ -63,6 +63,17 @@ TEST_P(NumberClaimsTest, OfStraightSlipAndNoFrictionAreKept) {
   }
 }
 
+TEST(NumberClaimsOfSpaceTest, AreKeptWhereSlipKeepsAPart) {
+  spatial::SceneSource source(kSeed);
+  NumberClaims claims;
+  for (int i = 0; i < kCount; ++i) {
+    spatial::Problem problem = source.WithPartThatStays();
+    problem.tolerance = i % 2 == 0 ? 1e-6 : 1e-12;
+    spatial::AddNumbers(problem, claims);
+  }
+  Expect(claims, "part stays", 0.02);
+}
+
 TEST_P(NumberClaimsTest, OfTheSpatialModelAreKept) {
   for (const double tolerance : {1e-2, 1e-6, 1e-12}) {
     Expect(spatial::NumberClaimsOf(GetParam(), tolerance, kCount, kSeed), "space", GetParam() ? 0.1 : 0.02);

@@ -51,7 +51,8 @@ inline Eigen::MatrixXd MassOf(Eigen::Index n, double decades, RandomScenes& rand
   return mass;
 }
 
-inline Scene SceneAtRandom(bool in_space, double decades, RandomScenes& random) {
+// With `one_free`, all coordinates but one keep their rates.
+inline Scene SceneAtRandom(bool in_space, double decades, bool one_free, RandomScenes& random) {
   const auto n = static_cast<Eigen::Index>(random.Uniform(in_space ? 3.0 : 2.0, 12.99));
   Eigen::MatrixXd jacobian(in_space ? 3 : 2, n);
   for (double& entry : jacobian.reshaped()) entry = random.Uniform(-1.0, 1.0);
@@ -59,7 +60,11 @@ inline Scene SceneAtRandom(bool in_space, double decades, RandomScenes& random) 
   for (double& rate : rates) rate = random.Uniform(-2.0, 2.0);
   if ((jacobian * rates)(in_space ? 2 : 1) > 0.0) rates = -rates;
   Mechanism mechanism = *MechanismFrom(MassOf(n, decades, random), jacobian, rates);
-  if (n > 5 && random.OneIn(3)) mechanism.kept_coordinates = {1, 4};
+  if (one_free) {
+    for (int i = 1; i < n; ++i) mechanism.kept_coordinates.push_back(i);
+  } else if (n > 5 && random.OneIn(3)) {
+    mechanism.kept_coordinates = {1, 4};
+  }
   const double coefficient = random.Uniform(0.0, 1.0);
   const int law = static_cast<int>(random.Uniform(0.0, 2.999));
   return {.system = mechanism,
@@ -163,11 +168,11 @@ inline void AddTo(const Scene& scene, const std::string& name, MechanismClaims& 
 }  // namespace mechanism_claims
 
 // `hard` mechanisms have a condition up to 10^10, others up to 10^3.
-inline MechanismClaims MechanismClaimsOf(bool in_space, bool hard, int count, uint64_t seed) {
+inline MechanismClaims MechanismClaimsOf(bool in_space, bool hard, int count, uint64_t seed, bool one_free = false) {
   RandomScenes random(seed);
   MechanismClaims claims;
   for (int i = 0; i < count; ++i) {
-    const Scene scene = mechanism_claims::SceneAtRandom(in_space, hard ? 10.0 : 3.0, random);
+    const Scene scene = mechanism_claims::SceneAtRandom(in_space, hard ? 10.0 : 3.0, one_free, random);
     mechanism_claims::AddTo(scene, "scene " + std::to_string(i), claims);
   }
   return claims;

@@ -16,30 +16,35 @@
 
 namespace ricochet::spatial {
 
+// Solves a scene and adds what it claims of its numbers and achieves.
+inline void AddNumbers(const Problem& problem, NumberClaims& claims) {
+  const Impact reference = HWY_NAMESPACE::Solver<long double>(problem, problem.Delassus().Rank(), 1e-16L).Run();
+  const Impact found = Solve(problem);
+  const auto at = [](double x) { return Ball(x, 64); };
+  const ExactImpact exact = {.u1 = {at(reference.u1[0]), at(reference.u1[1])},
+                             .f1 = {at(reference.f1[0]), at(reference.f1[1])},
+                             .v1 = at(reference.v1),
+                             .tau_compression = at(reference.tau_compression),
+                             .tau1 = at(reference.tau1),
+                             .work_normal_compression = at(reference.work_normal_compression),
+                             .work_normal_restitution = at(reference.work_normal_restitution),
+                             .work_tangential_compression = at(reference.work_tangential_compression),
+                             .work_tangential_restitution = at(reference.work_tangential_restitution),
+                             .energy_change = at(reference.energy_change),
+                             .newton = at(reference.newton),
+                             .poisson = at(reference.poisson),
+                             .energetic = at(reference.energetic),
+                             .tangential = at(reference.tangential)};
+  claims.Add(found.errors, Compare(found, exact), ToString(problem));
+}
+
 inline NumberClaims NumberClaimsOf(bool hard, double tolerance, int count, uint64_t seed) {
   SceneSource source(seed);
   NumberClaims claims;
   for (int i = 0; i < count; ++i) {
     Problem problem = hard ? HardScene(source) : source.Typical();
     problem.tolerance = tolerance;
-    const Impact reference = HWY_NAMESPACE::Solver<long double>(problem, problem.Delassus().Rank(), 1e-16L).Run();
-    const Impact found = Solve(problem);
-    const auto at = [](double x) { return Ball(x, 64); };
-    const ExactImpact exact = {.u1 = {at(reference.u1[0]), at(reference.u1[1])},
-                               .f1 = {at(reference.f1[0]), at(reference.f1[1])},
-                               .v1 = at(reference.v1),
-                               .tau_compression = at(reference.tau_compression),
-                               .tau1 = at(reference.tau1),
-                               .work_normal_compression = at(reference.work_normal_compression),
-                               .work_normal_restitution = at(reference.work_normal_restitution),
-                               .work_tangential_compression = at(reference.work_tangential_compression),
-                               .work_tangential_restitution = at(reference.work_tangential_restitution),
-                               .energy_change = at(reference.energy_change),
-                               .newton = at(reference.newton),
-                               .poisson = at(reference.poisson),
-                               .energetic = at(reference.energetic),
-                               .tangential = at(reference.tangential)};
-    claims.Add(found.errors, Compare(found, exact), ToString(problem));
+    AddNumbers(problem, claims);
   }
   return claims;
 }

@@ -71,6 +71,17 @@ class SceneSource {
     return problem;
   }
 
+  // The contact of a mechanism with one degree of freedom, whose velocity others change: slip has a part that no
+  // impulse moves. Friction is too small to jam it.
+  Problem WithPartThatStays() {
+    Problem problem = WithDegreesOfFreedom(1);
+    const Problem other = Typical();
+    problem.u0 = other.u0;
+    problem.v0 = other.v0;
+    problem.mu = problem.mu_static = Uniform(0.0, 0.9) * problem.w33 / std::hypot(problem.w13, problem.w23);
+    return problem;
+  }
+
   Problem SmallSlip() {
     Problem problem = Typical();
     const double size = Power(0.0, 14.0);

@@ -44,6 +44,21 @@ TEST_P(SpatialClaimsTest, ScenesOfRankTwoDeceiveNobodyAndHaveAnError) {
   EXPECT_EQ(tally.unknown(), 0);
 }
 
+// Steps along the one direction in which slip can change add their rounding, and no more.
+TEST_P(SpatialClaimsTest, ScenesInWhichSlipKeepsAPartDeceiveNobodyAndAreWithinTheTolerance) {
+  SceneSource source(kSeed);
+  ClaimTally tally(GetParam());
+  for (int i = 0; i < kCount; ++i) {
+    Problem problem = source.WithPartThatStays();
+    problem.tolerance = GetParam();
+    AddClaim(problem, tally);
+  }
+  PrintClaims("space", "part stays", tally);
+  EXPECT_EQ(tally.broken(), 0);
+  EXPECT_EQ(tally.unknown(), 0);
+  EXPECT_LE(tally.claimed_above_tolerance(), kCount / 50);
+}
+
 INSTANTIATE_TEST_SUITE_P(Tolerances, SpatialClaimsTest, testing::ValuesIn(kClaimTolerances));
 
 }  // namespace
