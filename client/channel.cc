@@ -34,8 +34,8 @@ void SetUpOnce() {
   static_cast<void>(kept);
 }
 
-// An argument of every channel, of which each part of the channel has a copy. The last one goes with the last part, and
-// calls keep their channel.
+// Counts the copies of an argument of every channel. Each part of a channel holds a copy and destroys it at its end,
+// and a call keeps its channel alive.
 std::atomic<int64_t> parts = 0;
 void* Copied(void* counter) {
   ++parts;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMostPort = 65535;
 
-// Removes a scheme before an address of the net. The one with an authority names the server that is asked for names.
+// Removes the scheme of a network address. In dns://SERVER/NAME, SERVER is the name server and is removed, too.
 absl::string_view WithoutScheme(absl::string_view server) {
   if (absl::ConsumePrefix(&server, "dns://")) {
     const size_t slash = server.find('/');

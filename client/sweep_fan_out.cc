@@ -20,9 +20,9 @@ using std::chrono::milliseconds;
 // sharing. Towards the end ranges are shorter, so that all servers end together, but not below the shortest time.
 constexpr double kRangeSeconds = 1.0;
 constexpr double kShortestSeconds = 0.03;
-// Nothing is known of the first range of a server, so it has one point, and the next ones grow at most so much.
+// Nothing is known of a server before its first range, which has one point; the next ones grow at most by this factor.
 constexpr double kMostGrowth = 8.0;
-// A function that must be asked whether the caller has stopped is asked that often.
+// If only a function of the caller can tell whether to stop, it is asked this often.
 constexpr milliseconds kLook{20};
 
 int64_t PointBytes(const SweepRequest& request) {

@@ -15,9 +15,9 @@ make_debian() {
   mmdebstrap --quiet --variant=minbase "$@" bookworm "$target" "$(debian_sources)"
 }
 
-# Runs a line of shell in a root directory, in a mount and a process namespace of its own: nothing to unmount and nobody
-# left when it ends. The cache of the compiler that is named third, if any, is that of the commands in it; what it holds
-# depends on the language of messages.
+# Runs a line of shell in a root directory, in mount and process namespaces of its own: nothing stays mounted and no
+# process is left when it ends. The third argument names a compiler cache that the commands share, if any; what the
+# cache holds depends on the language of messages.
 in_root() {
   # shellcheck disable=SC2016  # The inner shell expands these.
   unshare --mount --pid --fork --kill-child sh -ec '

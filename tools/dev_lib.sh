@@ -3,7 +3,7 @@
 # shellcheck shell=bash disable=SC2034  # The scripts read the variables.
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit
 
-# The packages of the core without its optional components; then these; then the service.
+# core_packages build the core without its optional components; build_packages add these and the service.
 readonly core_packages=(ccache cmake g++ libabsl-dev libeigen3-dev libhwy-dev libsleef-dev ninja-build)
 readonly client_packages=(
   cmake g++ libabsl-dev libgrpc++-dev libisal-dev libprotobuf-dev libssl-dev ninja-build protobuf-compiler-grpc)
@@ -40,7 +40,7 @@ export no_proxy=${no_proxy:+$no_proxy,}127.0.0.1,localhost,::1
 # Not empty if the command was asked for its short form.
 short=
 
-# These must not outlive a script, whatever ends it.
+# The function cleanup ends or removes these, however the script ends.
 server_pid=
 temporary=
 container=

@@ -116,15 +116,28 @@ absl::Status Solve(CsvReader& reader, const Solver& solver, Solved& solved) {
   return absl::OkStatus();
 }
 
-int64_t InvalidRows(const BatchSummary& summary) {
-  return summary.counts.by_regime[static_cast<size_t>(Regime::kInvalid)].count;
+int64_t RowsOf(const BatchSummary& summary, Regime regime) {
+  return summary.counts.by_regime[static_cast<size_t>(regime)].count;
+}
+
+// Counts the rows that --strict makes an error.
+int64_t BadRows(const Solved& solved) {
+  int64_t count = 0;
+  for (size_t row = 0; row < solved.regimes.size(); ++row) {
+    const Regime regime = solved.regimes[row];
+    const bool has_outcome = regime != Regime::kInvalid && regime != Regime::kNoSolution && regime != Regime::kWedged;
+    count += has_outcome && solved.statuses[row] != RowStatus::kInadmissible ? 0 : 1;
+  }
+  return count;
 }
 
 std::string SummaryText(const Solved& solved) {
   const BatchSummary& summary = solved.response.summary;
-  const int64_t invalid = InvalidRows(summary);
+  const int64_t invalid = RowsOf(summary, Regime::kInvalid);
+  const int64_t endless = RowsOf(summary, Regime::kNoSolution) + RowsOf(summary, Regime::kWedged);
   std::string text = absl::StrCat(summary.counts.points, summary.counts.points == 1 ? " row, " : " rows, ", invalid,
-                                  " without numbers, ", summary.counts.inadmissible.count, " inadmissible\n");
+                                  " without numbers, ", summary.counts.inadmissible.count, " inadmissible, ", endless,
+                                  " without an end or a solution\n");
   for (const BadRow& bad : summary.bad_rows) {
     absl::StrAppend(&text, "  row ", bad.row, " (line ", solved.lines[static_cast<size_t>(bad.row)], "): ", bad.field,
                     bad.field.empty() ? "" : " ", bad.description, "\n");
@@ -199,11 +212,10 @@ absl::Status SolveData(const DataOptions& data, const CommonOptions& options, co
   if (options.format == Format::kText) rows = RowsOfTable(options, *rows);
   if (!rows.ok()) return rows.status();
   if (absl::Status status = Write(solved, options, static_cast<size_t>(*rows)); !status.ok()) return status;
-  const BatchSummary& summary = solved.response.summary;
-  const int64_t bad = InvalidRows(summary) + summary.counts.inadmissible.count +
-                      summary.counts.by_regime[static_cast<size_t>(Regime::kNoSolution)].count;
+  const int64_t bad = BadRows(solved);
   if (!data.strict || bad == 0) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrCat(bad, " of ", summary.counts.points, " rows are not admissible"));
+  return absl::FailedPreconditionError(
+      absl::StrCat(bad, " of ", solved.regimes.size(), " rows are not admissible or have no end"));
 }
 
 }  // namespace ricochet::cli

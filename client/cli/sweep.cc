@@ -129,7 +129,7 @@ bool IsResumable(const SweepOptions& options) {
 }
 
 absl::Status CheckResume(const SweepOptions& options) {
-  // A shard is always gone on with.
+  // A shard resumes whether --resume is given or not.
   if (!options.resume || options.shard.any() || IsResumable(options)) return absl::OkStatus();
   return absl::InvalidArgumentError(
       "--resume needs -o FILE as csv, json, jsonl or npy, without --summary-only: only rows in a file can be gone on "
@@ -263,7 +263,7 @@ absl::Status ReceiveShard(const Solver& solver, const SweepRequest& request, con
   return ReceiveInto(*std::move(output), solver, shard->part, options, std::move(stop));
 }
 
-// Nothing leaves the number to the solver.
+// Returns nothing for an empty text: the solver then chooses the number of threads.
 absl::StatusOr<std::optional<int>> ReadThreads(const std::string& text) {
   constexpr int64_t kMost = 1024;
   if (text.empty()) return std::nullopt;

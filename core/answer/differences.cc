@@ -18,10 +18,10 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 constexpr int kNeighbours = 6;                    // On each side.
 constexpr std::array<size_t, 2> kSides = {0, 1};  // Below, above.
-// A scene next to this one, over the size of the number: it tells the course and whether the outcome jumps.
+// A scene at this distance, relative to the size of the number, tells the course and whether the outcome jumps.
 constexpr double kBeside = 0x1p-44;
 constexpr double kJump = 0x1p-24;
-// The error that is claimed over the estimate. Of many estimates the least is taken, which may be so by chance.
+// The claimed error is this many times the estimate, because the least of many estimates may be small by chance.
 constexpr double kMargin = 16.0;
 // Two estimates that differ by this many errors contradict each other.
 constexpr double kContradiction = 4.0;

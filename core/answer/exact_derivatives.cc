@@ -16,7 +16,7 @@
 namespace ricochet {
 namespace {
 
-// A number that is 0 has its sides here. The square of it is still a normal double.
+// The sides of a number that is 0 lie at plus and minus this value, whose square is still a normal double.
 constexpr double kBeside = 0x1p-300;
 constexpr size_t kOutputs = kPlanarOutputPaths.size();
 
@@ -106,7 +106,7 @@ void ExactDerivatives::Compute(const Scene& scene) {
   planar::SetTangents(absl::MakeSpan(impacts_));
 }
 
-// A coefficient at the end of its range must not leave it. Beside a number that is 0 rounding may hide that it does.
+// True unless a coefficient of 0 becomes negative on this side, which rounding may hide beside a number that is 0.
 bool ExactDerivatives::StaysInDomain(const Side& side) const {
   const auto& [kinetic, at_rest, restitution] = ContactOf(side).coefficients;
   const ContactTangent& d = side.contact_tangent;
@@ -120,7 +120,7 @@ void ExactDerivatives::SetSide(Number& number, const ContactTangents& tangents_h
   side.step = sign;
   side.own_contact.reset();
   if (number.path == kPhi) {
-    // a = R sin phi and b = R cos phi. One of them that is 0 has its sides beside it.
+    // Here a = R sin phi and b = R cos phi. If one of them is 0, its sides lie at the distance kBeside.
     auto& pendulum = std::get<Pendulum>(number.scene.system);
     const Pendulum here = pendulum;
     const bool is_upright = here.a_m == 0.0 || here.b_m == 0.0;

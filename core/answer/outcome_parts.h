@@ -94,7 +94,7 @@ absl::Status Complete(const OutcomeDetail& detail, const Timeline& timeline, abs
   return finite.ok() ? AddHistory(detail, state_at, outcome) : finite;
 }
 
-// The state_at of a model that keeps no path. The door refuses histories of its scenes.
+// Stands in for the state_at of a model that keeps no path. The checks of a request refuse histories of its scenes.
 State NoPath(double tau);
 
 // Gives a list with one entry for each tangential direction, also for a scalar.

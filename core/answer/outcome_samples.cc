@@ -139,7 +139,7 @@ class OutcomeSource final : public SampleSource {
 
   Demand demand_;
   absl::FunctionRef<bool()> stopped_;
-  // Among all numbers of an outcome, of each number asked for and of its error; behind the last one if there is none.
+  // The places of each number and of its error among the numbers of an outcome; behind the last one if there is none.
   std::vector<size_t> places_, error_places_;
 };
 

@@ -65,7 +65,7 @@ ContactErrors<kTangential> ErrorsOf(const Scene& scene, const Reduction<kTangent
   return of;
 }
 
-// Whatever the numbers of M and J are.
+// Returns what moves the contact, which does not depend on the numbers of M and J.
 Freedom FreedomOf(const Scene& scene, const Mechanism& mechanism, const std::vector<bool>& is_free) {
   if (std::count(is_free.begin(), is_free.end(), true) != 1) return Freedom::kMany;
   for (size_t i = 0; i < is_free.size(); ++i) {
@@ -86,7 +86,7 @@ Impulses<kTangential> TotalErrors(const Scene& scene, const Reduction<kTangentia
   return sum;
 }
 
-// Infinite factors count as 0 where the other one is 0.
+// Returns |x y|, where 0 times infinity counts as 0.
 double Product(double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : std::fabs(x) * std::fabs(y); }
 
 // A mechanism whose one coordinate locks is at rest, whatever errors its impulses have.

@@ -142,7 +142,7 @@ CriticalFriction Critical(const Problem& problem) {
                                              !problem.w.UFollowsV(problem.u0, problem.v0), is_positive);
   for (auto* const one :
        {&critical.stick, &critical.stop_compression, &critical.stop, &critical.reversal, &critical.jam}) {
-    // No friction is infinite.
+    // An infinite coefficient means that no finite friction is critical in this way.
     if (one->has_value() && !std::isfinite(**one)) one->reset();
   }
   return critical;

@@ -255,7 +255,7 @@ class BranchAndBound {
     Part half = whole;
     half.box[dimension] = range;
     const PlanarEnds ends = Evaluate(half.box);
-    // A part is no worse than the whole.
+    // A half contains only scenes of the whole, so the bound of the whole holds for it, too.
     half.bound = Reaches(ends, goal) ? std::min(RangeOf(ends, goal).upper, whole.bound) : -kInfinity;
     return half;
   }

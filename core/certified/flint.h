@@ -1,4 +1,4 @@
-// The one door to FLINT and Arb: every include of theirs. FLINT 3 contains Arb as <flint/arb.h>; before it, Arb was a
+// The only header that includes those of FLINT and Arb. FLINT 3 contains Arb as <flint/arb.h>; before it, Arb was a
 // library of its own whose headers Debian 12 installs as <arb.h>.
 
 #ifndef RICOCHET_CORE_CERTIFIED_FLINT_H_

@@ -13,7 +13,7 @@ namespace {
 
 double Factor(std::monostate /*unset*/, double /*speed*/) { return 1.0; }
 
-// The power may exceed the doubles, of which 0 times is no number.
+// The power may overflow, and 0 times an infinity is NaN, so alpha = 0 is answered without it.
 double Factor(const PowerLaw& law, double speed) {
   return law.alpha == 0.0 ? 1.0 : 1.0 - law.alpha * Pow(speed, law.exponent);
 }

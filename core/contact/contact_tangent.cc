@@ -122,7 +122,7 @@ double FactorTangent(const PowerLaw& law, const PowerLaw& d, double speed, doubl
 double FactorTangent(const SpeedTable& table, const SpeedTable& d, double speed, double d_speed) {
   const auto& speeds = table.speed_m_s;
   auto above = static_cast<size_t>(std::upper_bound(speeds.begin(), speeds.end(), speed) - speeds.begin());
-  // A speed of the table leaves it for the side to which it moves.
+  // A speed that equals an entry of the table is taken on the side to which it moves relative to that entry.
   if (above > 0 && speeds[above - 1] == speed && d_speed < d.speed_m_s[above - 1]) --above;
   if (above == 0) return d.factor.front();
   if (above == speeds.size()) return d.factor.back();

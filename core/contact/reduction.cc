@@ -316,7 +316,7 @@ bool ReductionDependsOn(absl::string_view path) {
 bool IsFinite(const AnyReduction& reduction) {
   return std::visit(
       [](const auto& reduced) {
-        // Times 0 a finite number is 0, and any other is no number.
+        // A finite number times 0 is 0, and an infinity or a NaN times 0 is NaN.
         double zero = 0.0 * reduced.v0;
         for (const double w : reduced.w) zero += 0.0 * w;
         for (const double u : reduced.u0) zero += 0.0 * u;

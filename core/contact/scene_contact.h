@@ -1,6 +1,6 @@
 // SceneContact: a scene reduced to its contact, with its coefficients at the approach speed.
 //
-// A request makes it once, at the door (core/scene/validate.h); plan, model, bounds and audit receive it.
+// A request makes it once, when it is validated (core/scene/validate.h); plan, model, bounds and audit receive it.
 
 #ifndef RICOCHET_CORE_CONTACT_SCENE_CONTACT_H_
 #define RICOCHET_CORE_CONTACT_SCENE_CONTACT_H_

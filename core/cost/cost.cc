@@ -171,7 +171,7 @@ class CostStudy::Impl {
                           .numerical = Relative(Distance(answer.velocity, *exact)),
                           .modelling = Relative(Distance(*exact, *truth))};
     row.reference_error = exact == truth ? truth->error : truth->error + exact->error;
-    // An answer of more digits than doubles has is compared digit by digit with one of even more.
+    // The velocities of certified answers are rounded to doubles, so their error is taken from the decimals instead.
     if (answer.numerical_error.has_value()) {
       achieved.numerical = *answer.numerical_error;
       if (exact == truth) {

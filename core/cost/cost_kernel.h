@@ -35,7 +35,7 @@ struct KernelAnswer {
   int64_t right_hand_sides = 0;
   std::string note;      // One sentence about the answer; may be empty.
   std::string failure;   // One sentence that says why there is no answer; empty if there is one.
-  bool stopped = false;  // The caller wanted no more; the rest has no meaning.
+  bool stopped = false;  // The caller stopped the solve, and the other members have no meaning.
 };
 
 using Stopped = absl::FunctionRef<bool()>;

@@ -88,7 +88,7 @@ class PlanarStudy {
     if (closed_form_.has_value() && Approaches()) ClaimReductionOfTimed(rigid);
   }
 
-  // The closed form takes no W, whose rounding counts where a pendulum nearly jams.
+  // The exact answer of a pendulum does not use W, so these methods claim the rounding of W, which counts near a jam.
   void ClaimReductionOfTimed(const ReferencePointer& rigid) {
     for (StudiedMethod& method : study_.methods) {
       const bool is_timed = method.method.model == Model::kFiniteDuration;
@@ -125,7 +125,7 @@ class PlanarStudy {
     AddSliding(sliding_problem, choice(Model::kSliding), study_.methods);
   }
 
-  // A scene without a spring has finite forces that do not act; the springs that it is given let them act.
+  // Finite forces do not act in a scene without a spring, but they act with the springs that the study gives it.
   void AddTimed(const ReferencePointer& impulses) {
     const bool same = !IsDamped() && physics_.tangential_acceleration == 0.0 && physics_.normal_acceleration == 0.0;
     const ReferencePointer own = AddFiniteDuration(problem_, physics_, same ? impulses : nullptr, study_.methods);

@@ -200,8 +200,8 @@ absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits)
   return check.status();
 }
 
-// A search computes every measured number once an iteration, and its derivative by each unknown. They are kept, so that
-// few iterations count as some.
+// An iteration of a search computes every measured number and its derivatives by all unknowns. These take memory even
+// in a short fit, so fewer than kFewIterations count as that many.
 absl::Status CheckLimits(const FitRequest& request, const Limits& limits) {
   SizeCheck check(limits);
   check.Scene(request.scene);

@@ -206,7 +206,7 @@ std::vector<uint64_t> PowersOfTheLibrary() {
   return bits;
 }
 
-// The points of a sweep are these.
+// Returns the values of axes, because a sweep computes its points from them.
 std::vector<uint64_t> ValuesOfAxes() {
   std::vector<uint64_t> bits;
   for (const Axis& axis : {Axis{.values = Linspace{-0.1, 0.3, 29}}, Axis{.values = Logspace{1e-3, 7.0, 29}}}) {
@@ -271,7 +271,7 @@ std::vector<Probe> ProbeEngine() {
   Questions questions;
   int i = 0;
   for (const System& system : SystemProbes()) {
-    // Both arithmetics, and what each effect leaves when it is left out.
+    // The tolerances call for both arithmetics, and each excluded effect for the answer without it.
     for (const double tolerance : {0.0, 1e-12, 1e-6}) {
       questions.Ask(RigidScene(system, i), {.relative_tolerance = tolerance});
     }

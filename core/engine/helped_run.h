@@ -25,7 +25,7 @@ namespace ricochet {
 
 class HelpedRun {
  public:
-  // Called with the mutex locked: whether one more helper would find something to do.
+  // Says whether one more helper would find something to do. It is called with the mutex locked.
   using HasWork = absl::AnyInvocable<bool()>;
   // The work of a helper; see Helpers::Help. Called on several threads at once, with the mutex unlocked.
   using Help = absl::AnyInvocable<void(absl::FunctionRef<bool()> gives_way)>;

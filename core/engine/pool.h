@@ -17,7 +17,7 @@ namespace ricochet {
 template <typename T>
 class Pool {
  public:
-  // `make` makes an object that nobody has; several threads may call it at once.
+  // `make` makes a new object; several threads may call it at once.
   explicit Pool(absl::AnyInvocable<std::unique_ptr<T>() const> make) : make_(std::move(make)) {}
 
   // Gives the object back to its pool in place of destroying it. The pool must outlive it.

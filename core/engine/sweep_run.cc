@@ -59,7 +59,7 @@ class SweepRun::Impl {
                                        int64_t most_bytes);
 
  private:
-  // A thread computes points with one of these.
+  // Each thread that computes points uses an object of this type for itself.
   struct Points {
     explicit Points(const CheckedSweep& sweep)
         : source(sweep.grid), solver(sweep.grid.scene, AxisPaths(sweep.grid), sweep.columns, sweep.demand) {}

@@ -24,18 +24,18 @@ namespace ricochet {
 namespace fit {
 namespace {
 
-// A region has so many rays.
+// A region is traced along this many rays.
 constexpr int kRays = 48;
-// A profile has so many places before each end.
+// A profile has this many points before each end of its interval.
 constexpr int kPlaces = 4;
-// A fit that finds a better one while it follows a ray starts again from there, so many times.
+// The intervals are sought again at most this many times after a ray has found a better fit.
 constexpr int kMostRestarts = 4;
-// Before the data refuse a fit it is sought from so many further starts: where all rows stick, or none approaches, the
-// search sees no way to a better one.
+// A fit is refused only after this many further starts: where all rows stick, or none approaches, the search sees no
+// way to a better one.
 constexpr size_t kFurtherStarts = 16;
-// They are the best of so many places.
+// The further starts are the best of this many places.
 constexpr int kLookedAt = 512;
-// One of these that lowers the objective by less than this part of it has found the same fit.
+// A further start that lowers the objective by less than this part of it has found the same fit.
 constexpr double kLeastGain = 1e-6;
 
 // Refuses a start at which a measured number has no prediction.
@@ -96,7 +96,7 @@ class Fitter {
     if (model_.is_stopped()) return false;
     Minimum found = Minimize(start, all_free_, kFineSearch, model_);
     Approach(start, model_, found);
-    // Of the starts that were not asked for, those tell something that lead to a better fit.
+    // The response lists a further start, which the request did not ask for, only if it led to a better fit.
     if (number >= problem_.starts && !(found.objective < (1.0 - kLeastGain) * best_.objective)) return false;
     const bool has_start = std::isfinite(found.objective);
     response_.starts.push_back({start, found.at, found.objective, found.iterations, found.converged && has_start});
@@ -154,8 +154,8 @@ class Fitter {
     return direction;
   }
 
-  // Finds the interval of each unknown. Returns true, if it may, once that has found a better fit from which to start
-  // again.
+  // Finds the interval of each unknown. If it may restart, it returns true as soon as it has found a better fit, from
+  // which to start again.
   bool FollowUnknowns(bool may_restart) {
     response_.unknowns.clear();
     for (size_t k = 0; k < problem_.unknowns() && !model_.is_stopped(); ++k) {
@@ -189,7 +189,7 @@ class Fitter {
     const double value = std::clamp(estimate.value + ray.distance * step, problem_.low[k], problem_.high[k]);
     end.kind = ray.kind;
     if (ray.kind == FitEndKind::kFound || ray.kind == FitEndKind::kCutByBound) end.value = value;
-    // Bounds of a number that the data do not tell are no ends that the data gave.
+    // The data do not determine this number, so a bound that it reaches is not an end that the data gave.
     if (!estimate.seen && ray.kind != FitEndKind::kFound) end = {.kind = FitEndKind::kNotSeen, .value = {}};
     for (const RayPoint& point : ray.computed) {
       if (std::isfinite(point.rise)) estimate.profile.push_back({estimate.value + point.distance * step, point.rise});

@@ -12,12 +12,12 @@ namespace ricochet::fit {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-// Differences are exact to some 1e-7 of the numbers: a slope below this part of them is nothing.
+// Derivatives by differences are right to some 1e-7 of the numbers, so a slope below this part of them counts as 0.
 constexpr double kNothing = 1e-6;
 // An unknown with a smaller part of a combination that is not seen is seen by itself.
 constexpr double kLeastPart = 1e-3;
 
-// So many rows of derivatives are decomposed before a stop is asked for.
+// The caller may stop the computation after each block of this many rows of derivatives.
 constexpr Eigen::Index kBlock = 4096;
 
 // The share of each row in the square of a column of J.

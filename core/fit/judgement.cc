@@ -55,8 +55,8 @@ void SetRows(const Problem& problem, const std::vector<double>& best, Model& mod
   });
 }
 
-// Errors of so many sigmas are possible: normal errors would make any of `rows` velocities err by more with less than
-// the probability at which the data refuse the physics.
+// Returns the largest error in sigmas that counts as possible: normal errors would make any of `rows` velocities exceed
+// it with less than the probability at which the data refuse the physics.
 double PossibleSigmas(size_t rows) {
   double low = 0.0, high = 40.0;
   constexpr int kEnough = 50;
@@ -132,7 +132,7 @@ void SetThresholds(const Problem& problem, const std::vector<double>& best, Mode
     for (size_t k = 0; k < best.size(); ++k) {
       const size_t place = i * best.size() + k;
       const double larger = std::max(std::fabs(below[place]), std::fabs(above[place]));
-      // A slope that moves the number by less than a part of its sigma is none.
+      // A slope that moves the number by less than a small part of its sigma counts as 0.
       const bool matters = larger * problem.scale[k] > kSidesAgree * number.sigma;
       if (!matters || !(std::fabs(above[place] - below[place]) > kSidesAgree * larger)) continue;
       response.thresholds.push_back({static_cast<int64_t>(number.row), problem.batch.columns[number.column],

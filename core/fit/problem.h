@@ -1,4 +1,4 @@
-// Problem: a request for a fit that has passed the door.
+// Problem: a request for a fit that has passed all checks.
 
 #ifndef RICOCHET_CORE_FIT_PROBLEM_H_
 #define RICOCHET_CORE_FIT_PROBLEM_H_

@@ -12,13 +12,13 @@
 namespace ricochet::fit {
 namespace {
 
-// A search that has gone so many times the first distance has no end.
+// An end that lies beyond this many times the first distance counts as unbounded.
 constexpr double kFarthest = 0x1p20;
 // An end is exact to this part of its distance, or where the root of the rise is exact to it.
 constexpr double kEndTolerance = 1e-5;
-// A search goes on beyond so many ends that were none.
+// A search continues at most this many times past an end beyond which other values of the free unknowns still fit.
 constexpr int kMostFurther = 8;
-// At an end the other unknowns are looked at in so many places, and searched from so many of them.
+// At an end this many places of the free unknowns are evaluated, and searches start from the best kTriedPlaces.
 constexpr int kLookedAt = 128;
 constexpr size_t kTriedPlaces = 2;
 
@@ -54,7 +54,7 @@ class Ray {
   }
 
  private:
-  // The other unknowns follow from place to place. Where they end is no end if they can go on from elsewhere.
+  // Each place starts from the free unknowns of the last one inside. An end counts only if no other start gets past it.
   RayEnd Search() {
     RayPoint inside;
     for (int further = 0;; ++further) {
@@ -96,7 +96,7 @@ class Ray {
     const double rise = least.objective - best_.objective;
     if (IsInside(least)) {
       last_inside_ = least.at;
-      // What was found outside before this place was no least objective.
+      // A place outside that lies before this one had not found the least objective, so it is dropped.
       std::erase_if(end_.computed,
                     [&](const RayPoint& point) { return point.distance <= distance && point.rise >= rise_; });
     }

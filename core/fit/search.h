@@ -18,7 +18,7 @@ struct Minimum {
   bool converged = false;
 };
 
-// A fit that is worse by no more than this is as good.
+// A fit whose objective is larger by at most this counts as equally good.
 inline constexpr double kAsGood = 1e-6;
 
 // The sum of the losses at each point; infinite where a number has no prediction.

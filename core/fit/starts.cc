@@ -11,9 +11,9 @@
 namespace ricochet::fit {
 namespace {
 
-// A model without exact derivatives has so many times fewer places.
+// This many times fewer places are tried for a model without exact derivatives, whose rows may take milliseconds.
 constexpr int kFewer = 16;
-// So many rows are solved at once.
+// Places are solved in groups that have at most this many rows together, or in groups of one.
 constexpr size_t kRowsAtOnce = size_t{1} << 18;
 
 // The root of ratio^(unknowns + 1) = 1 + ratio: the golden ratio for one unknown.

@@ -11,7 +11,7 @@ constexpr int kMostDimensions = 2 * kMostContactsOfFaces;
 using Point = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign, kMostDimensions, 1>;
 using Basis = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign, kMostDimensions, kMostDimensions>;
 
-// Feasibility, equality of maxima, and dependence of unit vectors, up to rounding.
+// Tests of feasibility, of equal maxima and of dependent unit vectors allow for this much rounding.
 constexpr double kTolerance = 1e-11;
 constexpr size_t kMostProofs = 6;
 

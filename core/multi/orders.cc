@@ -199,7 +199,7 @@ class Search {
     next.resize(most);
   }
 
-  // Two contacts that have struck each other in turn at the end of an order do so without end.
+  // Marks the end of an order in which two contacts strike each other in turn as a part that repeats without end.
   static void FoldPair(Attained& state) {
     std::vector<int>& order = state.order;
     size_t first = order.size() - 2;

@@ -114,7 +114,7 @@ void SetDerivative(const ContactBlock& w, const ContactLaw& law, const ContactVe
   for (Eigen::Index j = 0; j < d; ++j) {
     if (j == largest) continue;
     ContactVector beside = x;
-    beside(j) -= step;  // A contact that approaches still does.
+    beside(j) -= step;  // v never rises, so that the contact still approaches.
     const SingleImpact moved = SolveOne(w, law, beside);
     if (!moved.ended) continue;
     derivative.col(j) = (single.impulse - moved.impulse) / step;
@@ -128,7 +128,7 @@ void SetDerivative(const ContactBlock& w, const ContactLaw& law, const ContactVe
 // The normal component stays.
 ContactVector InRange(const ContactBlock& w, const ContactVector& x) {
   const auto d = w.rows();
-  const auto place = [d](Eigen::Index a) { return (a + d - 1) % d; };  // n first
+  const auto place = [d](Eigen::Index a) { return (a + d - 1) % d; };  // The order is n, then t.
   ContactBlock c = ContactBlock::Zero(d, d);
   ContactVector y = ContactVector::Zero(d);
   ContactVector settled = x;

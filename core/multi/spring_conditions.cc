@@ -10,7 +10,7 @@ namespace {
 
 size_t At(int i) { return static_cast<size_t>(i); }
 
-// A coefficient that an event made 0 may be more than rounding where another mode divides friction anew.
+// Sets a coefficient to 0 that an event made 0. It may exceed rounding where another mode divides friction differently.
 void TakeForZero(size_t m, Series& series) {
   double largest = 0.0;
   for (const double c : series.c) largest = std::max(largest, std::abs(c));

@@ -8,7 +8,7 @@
 namespace ricochet::multi {
 namespace {
 
-// |A| h of a step.
+// The length h of a step is chosen so that |A| h has this value.
 constexpr double kTheta = 2.0;
 // An eigenvalue of this part of the largest is rounding: the sticking contacts are then held more than once.
 constexpr double kRankTolerance = 1e-12;
@@ -177,7 +177,7 @@ void SpringFlow::SetStep(const Problem& problem, const SpringState& state, const
     h_ = kTheta / std::sqrt(square);
     return;
   }
-  h_ = 1.0;  // Any will do where no gap closes.
+  h_ = 1.0;  // This holds unless a gap closes, because nothing else limits the step.
   bool closes = false;
   for (int i = 0; i < k_; ++i) {
     const double gap = state.g[static_cast<size_t>(i)];

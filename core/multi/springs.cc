@@ -256,7 +256,7 @@ class Motion {
         if (state_.f[At(i)] <= 4.0 * kEpsilon * x) state_.f[At(i)] = 0.0;
       }
       if (ends || state_.f[At(first)] == 0.0) break;
-      // Just beyond the change of friction.
+      // The forces move just beyond the change of friction, so that FindModes finds the modes after it.
       const double beyond = 0x1p-40 * state_.f[At(first)];
       for (const int i : falling) state_.f[At(i)] -= beyond;
       FindModes();
@@ -334,7 +334,7 @@ class Motion {
     return presses;
   }
 
-  // True if there are forces and they cancel. Those that plastic contacts keep by rounding do not.
+  // True if there are forces and they cancel. Forces that plastic contacts keep only by rounding do not cancel.
   bool HoldsItself() const {
     constexpr double kLeft = 0x1p-20;
     bool presses = false;

@@ -97,7 +97,7 @@ class AffineInterval {
   friend AffineInterval Cos(const AffineInterval& x) {
     return x.Through(Cos(x.centre_), Cos(x.range_), -Sin(x.range_));
   }
-  // x >= 0
+  // Requires x >= 0.
   friend AffineInterval Pow(const AffineInterval& x, double exponent) {
     return x.Through(Pow(x.centre_, exponent), Pow(x.range_, exponent),
                      Interval(exponent) * Pow(x.range_, exponent - 1.0));

@@ -43,7 +43,7 @@ void Residual(const double* a, const double* x, const double* b, size_t n, doubl
     return;
   }
   for (size_t row = 0; row + lanes <= n; row += lanes) ResidualAt<Vector>(row, a, x, b, n, residual, sizes);
-  if (n % lanes != 0) ResidualAt<Vector>(n - lanes, a, x, b, n, residual, sizes);  // Some rows once more.
+  if (n % lanes != 0) ResidualAt<Vector>(n - lanes, a, x, b, n, residual, sizes);  // This computes some rows twice.
 }
 
 }  // namespace ricochet::HWY_NAMESPACE

@@ -36,7 +36,7 @@ struct DoubleDouble {
   HWY_INLINE static DoubleDouble Exactly(V value) { return {value, Lanes<V>::Fill(0.0)}; }
 };
 
-// a + b exactly.
+// Returns a + b exactly.
 template <typename V>
 HWY_INLINE DoubleDouble<V> TwoSum(V a, V b) {
   const V sum = a + b;
@@ -44,14 +44,14 @@ HWY_INLINE DoubleDouble<V> TwoSum(V a, V b) {
   return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-// a + b exactly, for |a| >= |b| or a = 0.
+// Returns a + b exactly. Requires |a| >= |b| or a = 0.
 template <typename V>
 HWY_INLINE DoubleDouble<V> QuickTwoSum(V a, V b) {
   const V sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-// a b exactly.
+// Returns a b exactly.
 template <typename V>
 HWY_INLINE DoubleDouble<V> TwoProduct(V a, V b) {
   const V product = a * b;
@@ -107,7 +107,7 @@ HWY_INLINE void InvertBoth(DoubleDouble<V> x, DoubleDouble<V> y, DoubleDouble<V>
   inverse_y = Inverse(y);
 }
 
-// a + x y and a - x y.
+// These two return a + x y and a - x y.
 template <typename V>
 HWY_INLINE DoubleDouble<V> AddProduct(DoubleDouble<V> a, DoubleDouble<V> x, DoubleDouble<V> y) {
   return a + x * y;
@@ -117,7 +117,7 @@ HWY_INLINE DoubleDouble<V> SubtractProduct(DoubleDouble<V> a, DoubleDouble<V> x,
   return a - x * y;
 }
 
-// x > 0.
+// Requires x > 0.
 template <typename V>
 HWY_INLINE DoubleDouble<V> Sqrt(DoubleDouble<V> x) {
   const V root = SquareRoot(x.hi);

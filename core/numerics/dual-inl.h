@@ -63,7 +63,7 @@ HWY_INLINE Dual<N> operator/(const Dual<N>& x, const Dual<N>& y) {
   return {quotient, (x.rate - quotient * y.rate) * inverse};
 }
 
-// x > 0.
+// Requires x > 0.
 template <typename N>
 HWY_INLINE Dual<N> Sqrt(const Dual<N>& x) {
   const N root = Sqrt(x.value);

@@ -66,13 +66,13 @@ HWY_INLINE void InvertBoth(Plain<V> x, Plain<V> y, Plain<V>& inverse_x, Plain<V>
   inverse_y = x * inverse;
 }
 
-// x > 0.
+// Requires x > 0.
 template <typename V>
 HWY_INLINE Plain<V> Sqrt(Plain<V> x) {
   return Plain<V>(SquareRoot(x.value));
 }
 
-// a + x y and a - x y.
+// These two return a + x y and a - x y with one rounding.
 template <typename V>
 HWY_INLINE Plain<V> AddProduct(Plain<V> a, Plain<V> x, Plain<V> y) {
   return Plain<V>(Fma(x.value, y.value, a.value));

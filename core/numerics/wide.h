@@ -43,7 +43,7 @@ class Wide {
     inverse_y = Inverse(y);
   }
 
-  // x > 0.
+  // Requires x > 0.
   friend Wide Sqrt(const Wide& x) {
     const int odd = x.exponent_ & 1;
     return {Sqrt(Scaled(x.mantissa_, odd)), (x.exponent_ - odd) / 2};

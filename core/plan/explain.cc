@@ -13,7 +13,7 @@ std::string Digits(double value) { return absl::StrFormat("%.3g", value); }
 
 std::string Percent(double share) { return absl::StrCat(Digits(100.0 * share), " %"); }
 
-// These tell for which kind of contact the sizes were computed.
+// A set of sizes belongs to a contact of one of these kinds.
 enum class ContactKind { kPlanar, kPendulum, kSpatial };
 
 ContactKind KindOf(const Sizes& sizes) {

@@ -25,7 +25,7 @@ struct PlannedScene {
   ContactPhysics physics;           // Set for a contact in a plane; it lacks these effects, too.
   EffectiveCoefficients effective;  // The coefficients of the scene with all effects.
   Choice choice;
-  Demand demand;  // That it was planned for.
+  Demand demand;  // The demand that the scene was planned for.
 
   // The part of the tolerance that the effects left out do not use.
   double ToleranceLeft() const;

@@ -92,7 +92,7 @@ Size FrictionSize(const Scaled& contact, const ContactPhysics& physics, bool sli
       contact.Change(smooth, {.f_slope = contact.friction, .slope_low = 1.0 - cone, .slope_high = 1.0 + cone});
   if (1.0 - cone >= kLeastSlope) {
     const Perturbation held = {.f_jump = HeldImpulse(contact), .slope_low = 1.0 - cone, .slope_high = 1.0 + cone};
-    // The change is no less than that of the impulse, which tells for most contacts that it is not the smaller one.
+    // This lower bound on the second size spares computing it for most contacts, for which it is not the smaller one.
     const double least = contact.scale * (contact.mobility.tangential * held.f_jump);
     if (!(least >= size)) size = std::min(size, contact.Change(smooth, held));
   }
@@ -332,7 +332,7 @@ Sizes PlanarSizes(const planar::Problem& problem, const ContactPhysics& physics,
     for (const Effect effect : {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction}) {
       sizes[effect] = {.basis = Basis::kImmobile};
     }
-    // Where the contact slips all the same, friction has an impulse and does work, which no velocity shows.
+    // Impulses along t move nothing here, but a contact that slips still receives a friction impulse that does work.
     if (problem.u0 != 0.0 && problem.mu > 0.0) {
       sizes[Effect::kFriction] = {.value = kUnbounded, .basis = Basis::kNoInequality};
     }
@@ -421,7 +421,7 @@ Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& phys
     sizes[Effect::kStaticFriction] =
         disagree ? Locking(problem.mu_static * b / problem.a) : Size{.basis = Basis::kDecidesNothing};
   }
-  // Only a compliant contact needs the size of friction that holds in a plane, which costs more than all others.
+  // The size of friction of a planar contact costs more than all other sizes, and only a compliant contact needs it.
   if (physics.ratio_squared != 0.0) {
     const double friction = FrictionSize(contact, physics, false).value;
     sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, planar, physics, friction);

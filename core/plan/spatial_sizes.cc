@@ -223,7 +223,7 @@ Sizes SpatialSizes(const spatial::Problem& problem) {
   const Scaled contact = Scale(problem);
   sizes[Effect::kFriction] = FrictionSize(contact);
   const bool is_immobile = problem.w11 == 0.0 && problem.w22 == 0.0;
-  // Where the contact slips all the same, friction has an impulse and does work, which no velocity shows.
+  // Where tangential impulses move nothing, a contact that slips still receives a friction impulse that does work.
   if (is_immobile && contact.slip > 0.0 && problem.mu > 0.0) {
     sizes[Effect::kFriction] = {.value = kUnbounded, .basis = Basis::kNoInequality};
   }

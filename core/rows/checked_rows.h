@@ -1,4 +1,4 @@
-// CheckedSweep and CheckedBatch: rows that have passed the door, with the effects that make their columns.
+// CheckedSweep and CheckedBatch: rows that have passed all checks, with the effects that make their columns.
 
 #ifndef RICOCHET_CORE_ROWS_CHECKED_ROWS_H_
 #define RICOCHET_CORE_ROWS_CHECKED_ROWS_H_

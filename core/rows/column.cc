@@ -74,7 +74,7 @@ Outcome WithEveryNumber(const Scene& scene) {
   return outcome;
 }
 
-// Which outcomes have a number that those of some scenes lack.
+// Each entry says, for paths with this beginning, which outcomes have such a number.
 constexpr std::pair<const char*, const char*> kOwners[] = {
     {"rates_after_rad_s[", "rates_after_rad_s has an entry for each link of a linkage and one for a pendulum"},
     {"rates_after[", "rates_after has an entry for each coordinate of a mechanism"},

@@ -58,7 +58,7 @@ class ColumnReader {
  private:
   // A place of an outcome.
   struct Place {
-    std::optional<size_t> column;  // The one that it is, if it is one.
+    std::optional<size_t> column;  // The column of the request that has this number; unset if none has.
     bool may_be_infinite = false;
   };
 

@@ -46,7 +46,7 @@ class DrivenScene {
   const Scene& scene() const { return scene_; }
   const DrivenFields& fields() const { return fields_; }
 
-  // Below, there are no violations, and the base scene has none that cannot be cured.
+  // The functions below require that there are no violations, and that the base scene has only ones that can be cured.
   // Sets the field of one path. Returns false if its value breaks the rule of its number.
   bool Set(size_t k, double value);
   // Sets all fields to row `i` of their columns. A field that has its value already costs nothing.

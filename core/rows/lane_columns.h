@@ -36,7 +36,7 @@ class LaneColumns {
   bool static_is_kinetic_ = false;                 // The scene states no static coefficient.
   size_t static_ = 0;                              // The place of static friction among the numbers.
   std::vector<std::vector<size_t>> numbers_of_;    // Each field sets these: one, or several if it is derived.
-  std::vector<std::optional<double>> derived_of_;  // The value of a derived field that fills its columns, if it is one.
+  std::vector<std::optional<double>> derived_of_;  // The value that fills a derived field's columns, if one does.
   SceneLanes::Columns columns_;
   std::array<std::array<double, SceneLanes::kBlock>, SceneLanes::kMostNumbers> numbers_;
 };

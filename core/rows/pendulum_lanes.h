@@ -48,10 +48,10 @@ class PendulumLanes : public SceneLanes {
   std::array<std::optional<double>, kNumberCount> held_;  // The number that all problems have, where that is known.
 
   std::vector<pendulum::Output> outputs_;         // The kernel computes these, each once.
-  std::vector<std::optional<size_t>> column_of_;  // For each of them the column that it is, if it is one.
+  std::vector<std::optional<size_t>> column_of_;  // The column of each output; unset for an output that is no column.
   std::vector<double*> places_;                   // The places of the outputs in the current block.
   std::optional<size_t> dissipation_;             // The column of minus the work of friction.
-  std::optional<size_t> spring_;                  // The column of the energy of a spring that a rigid body has not.
+  std::optional<size_t> spring_;                  // The column of the tangential spring energy, which is 0 here.
   size_t friction_ = 0;                           // Which output the work of friction is, if it is needed.
   std::array<double, kBlock> friction_work_;      // Its place if it is no column.
 };

@@ -62,7 +62,7 @@ class GridRows final : public RowSource {
     int64_t count = 0;
     int64_t stride = 0;           // Its position stays for so many points.
     std::vector<double> kept;     // The values of all positions, if they are asked for again and again and are few.
-    std::optional<double> alike;  // The value that fills the block, if it is one.
+    std::optional<double> alike;  // The value at all points of the block; unset if they differ.
     std::array<double, kBlock> values;
   };
 

@@ -58,7 +58,7 @@ bool KeepCoefficientRules(double mu, double mu_static, RestitutionLaw law, doubl
 }
 
 bool AreFinite(absl::Span<double* const> columns, size_t first, size_t count) {
-  // Added to a magnitude, the least exponent carries into the sign if the number is infinite or NaN.
+  // Adding one exponent step to the bits of a magnitude sets the sign bit only if the number is infinite or NaN.
   constexpr uint64_t kSign = uint64_t{1} << 63;
   constexpr uint64_t kLeastExponent = uint64_t{1} << 52;
   uint64_t carry = 0;

@@ -79,8 +79,8 @@ std::optional<Output> OutputAt(absl::Span<const char* const> paths, absl::string
   return found == paths.end() ? std::nullopt : std::optional(static_cast<Output>(found - paths.begin()));
 }
 
-// No product of a few numbers overflows or vanishes that are 0 or have magnitudes between the inverse of this one and
-// it.
+// Products of a few numbers neither overflow nor underflow if each number is 0 or has a magnitude between the inverse
+// of this limit and the limit.
 inline constexpr double kMostInLanes = 0x1p200;
 
 // True if coefficients of friction and restitution keep the rules of a scene; a comparison with NaN is false.

@@ -24,7 +24,7 @@ class SpatialLanes {
   // Forgets all scenes.
   void Clear();
   // Adds a scene if the spatial model is to solve it, takes the reduction of its contact over, and returns its place.
-  // The first form plans the scene itself, and may leave it to a plan (PlanScene), by which the second form decides.
+  // The first form decides without a plan where it can. If it returns nothing, the second form decides by a plan.
   std::optional<size_t> Add(const Scene& scene, const Demand& demand, std::optional<SceneContact>& contact);
   std::optional<size_t> Add(const PlannedScene& planned, std::optional<SceneContact>& contact);
   void Solve();

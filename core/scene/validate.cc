@@ -140,7 +140,7 @@ std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution, s
 
 bool HasRelations(const Scene& scene) {
   if (!std::holds_alternative<Pendulum>(scene.system)) return true;
-  // The numbers of a pendulum, its friction and its restitution keep no rules but their own. Any other part may.
+  // A pendulum, kinetic friction and restitution have rules for single numbers only. Any other part may relate numbers.
   Scene plain;
   plain.system = scene.system;
   plain.friction.kinetic_coefficient = scene.friction.kinetic_coefficient;

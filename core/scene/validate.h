@@ -1,5 +1,5 @@
-// Validate: checks every rule that a scene must keep, and lists all violations at once. It is the door of the core: all
-// other code relies on a valid scene.
+// Validate: checks every rule that a scene must keep, and lists all violations at once. All other code of the core
+// relies on a valid scene.
 
 #ifndef RICOCHET_CORE_SCENE_VALIDATE_H_
 #define RICOCHET_CORE_SCENE_VALIDATE_H_

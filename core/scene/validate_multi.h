@@ -1,5 +1,5 @@
-// Validate: checks every rule that a request about several contacts must keep, and lists all violations at once. It is
-// the door of all code about them, which relies on a valid request.
+// Validate: checks every rule that a request about several contacts must keep, and lists all violations at once. All
+// other code about several contacts relies on a valid request.
 
 #ifndef RICOCHET_CORE_SCENE_VALIDATE_MULTI_H_
 #define RICOCHET_CORE_SCENE_VALIDATE_MULTI_H_

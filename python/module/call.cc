@@ -14,13 +14,13 @@
 namespace ricochet::python {
 namespace {
 
-// These change with the lock of Python only.
+// These variables change only while the lock of Python is held.
 int calls_of_servers = 0;
 bool uses_grpc = false;
 bool grpc_may_fork = false;  // gRPC's handlers run at this fork.
 bool grpc_is_lost = false;
 
-// Connections are closed before a fork. gRPC takes a millisecond to destroy them.
+// Connections are closed before a fork, which waits at most this long until gRPC has destroyed them.
 constexpr std::chrono::seconds kLongestClosing(2);
 
 void BeforeFork() {

@@ -25,7 +25,7 @@ inline py::str Text(absl::string_view text) { return {text.data(), text.size()};
 // Raises the exception for an error, with its reason, its violations and the time after which to try again.
 [[noreturn]] void Raise(const absl::Status& error);
 
-// Raises InvalidRequest. The violations are not as few as those that a status lists.
+// Raises InvalidRequest with all of these violations, of which a status would list only the first ones.
 [[noreturn]] void Raise(const std::vector<Violation>& violations);
 
 }  // namespace ricochet::python

@@ -48,10 +48,10 @@ bool IsZeroOrFalse(PyObject* value) {
   return value == Py_False || (PyLong_CheckExact(value) && PyObject_IsTrue(value) == 0);
 }
 
-// None would silently become the 0 of a number that a message always has.
+// Returns whether the field may be None. In a field without presence, None would silently become 0.
 bool MayBeAbsent(const FieldDescriptor& field) { return field.has_presence() || field.is_repeated(); }
 
-// The text of a str; nothing if it is none, or none that can be encoded.
+// Returns the text of a str; nothing for another object, or for a text that cannot be encoded.
 std::optional<absl::string_view> Utf8(PyObject* value) {
   if (!PyUnicode_Check(value)) return std::nullopt;
   Py_ssize_t size = 0;
@@ -273,7 +273,7 @@ void Filler::FillList(py::handle value, Message& message, const Field& field, co
     if (field.cpp_type() == Field::CPPTYPE_MESSAGE) {
       Fill(entry, *reflection.AddMessage(&message, &field), &there);
     } else {
-      // A name that is unknown is shown, and needs no index.
+      // The error for an unknown name of an enum shows the name, so that its path needs no index.
       Put(entry, message, field, field.cpp_type() == Field::CPPTYPE_ENUM ? place : there);
     }
   }

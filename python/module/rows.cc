@@ -31,13 +31,14 @@ void Put(const std::vector<Code>& codes, int64_t first, Codes& to) {
                  [](Code code) { return static_cast<uint8_t>(code); });
 }
 
-// Counts what the statuses say of all rows: how many have no numbers, and how many are inadmissible.
-py::tuple Counts(const Codes& statuses) {
-  const auto count = [&](RowStatus status) {
-    return std::count(statuses.data(), statuses.data() + statuses.size(), static_cast<uint8_t>(status));
+// Counts the rows that have no numbers, those that are inadmissible, and those whose impact has no end or no solution.
+py::tuple Counts(const Codes& regimes, const Codes& statuses) {
+  const auto count = [](const Codes& codes, auto code) {
+    return std::count(codes.data(), codes.data() + codes.size(), static_cast<uint8_t>(code));
   };
-  return py::make_tuple(count(RowStatus::kInvalid) + count(RowStatus::kNotRepresentable),
-                        count(RowStatus::kInadmissible));
+  return py::make_tuple(count(statuses, RowStatus::kInvalid) + count(statuses, RowStatus::kNotRepresentable),
+                        count(statuses, RowStatus::kInadmissible),
+                        count(regimes, Regime::kWedged) + count(regimes, Regime::kNoSolution));
 }
 
 absl::Span<const double> SpanOf(py::handle column) {
@@ -72,7 +73,7 @@ py::tuple SolveBatch(const Callee& solver, py::handle scene, const py::dict& arg
   for (const BadRow& row : answer->summary.bad_rows) {
     bad_rows.append(py::make_tuple(row.row, static_cast<int>(row.status), row.field, row.description));
   }
-  return py::make_tuple(outputs, regime_codes, statuses, Counts(statuses), bad_rows);
+  return py::make_tuple(outputs, regime_codes, statuses, Counts(regime_codes, statuses), bad_rows);
 }
 
 // The points of a sweep that have arrived.
@@ -127,8 +128,8 @@ py::tuple Sweep(const Callee& solver, py::handle scene, const py::dict& argument
   CheckInvariant(points.has_value(), "a sweep that has not failed has points");
   py::list axes;
   for (const Axis& axis : request.grid.axes) axes.append(ValuesOf(axis));
-  return py::make_tuple(points->values, points->regimes, points->statuses, Counts(points->statuses), axes,
-                        Provenance(request, engine));
+  return py::make_tuple(points->values, points->regimes, points->statuses, Counts(points->regimes, points->statuses),
+                        axes, Provenance(request, engine));
 }
 
 // The values of an axis from `start` to `stop`.

@@ -117,7 +117,7 @@ Axes AxesOf(const Velocities& velocities, const Vector& velocity, const Vector& 
     any[static_cast<size_t>(std::min_element(normal.begin(), normal.end(), smaller) - normal.begin())] = 1.0;
     t1 = UnitAcross(any, normal);
   }
-  // A normal that is no direction has no axes.
+  // A normal without a direction, such as a zero vector, gives NaN for the tangential axes.
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const Vector slip = t1.value_or(Vector{kNone, kNone, kNone});
   const Vector along = {sign * slip[0], sign * slip[1], sign * slip[2]};

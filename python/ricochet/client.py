@@ -37,6 +37,7 @@ _REGIMES = _core.enum_names("Regime")
 _STATUSES = _core.enum_names("RowStatus")
 _VERDICTS = _core.enum_names("LimitCheck.Verdict")
 _WITHOUT_NUMBERS = [_STATUSES.index(name) for name in ("INVALID", "NOT_REPRESENTABLE")]
+_WITHOUT_END = [_REGIMES.index(name) for name in ("WEDGED", "NO_SOLUTION")]
 _SIDES = {"both": "value", "below": "from_below", "above": "from_above"}
 _MOST_AUDIT_ROWS = 8192  # One call takes so many.
 _clients: "weakref.WeakSet[Client]" = weakref.WeakSet()
@@ -416,7 +417,8 @@ class Client:
             A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``; a number
             that the outcome of a row leaves unset is NaN, and the status is ``"INCOMPLETE"``; ``"NOT_CONVERGED"`` is
             that of a row whose ``accuracy.relative_error`` exceeds the tolerance. A warning ``InvalidRows`` counts rows
-            that break a rule, and ``table.summary.bad_rows`` has the reasons of the first ones.
+            that break a rule, and ``table.summary.bad_rows`` has the reasons of the first ones. A warning ``NoEnd``
+            counts rows whose impact has no end, or whose impact law has no solution.
 
         Raises:
             InvalidRequest: the scene, a path, an entry or the length of an array is wrong.
@@ -424,7 +426,7 @@ class Client:
         """
         arguments = {"tolerance": tolerance, "require": require, "exclude": exclude}
         table = self._batch(Scene(scene), inputs, columns, arguments)
-        _warn_of_invalid(table)
+        _warn_of_rows(table)
         return table
 
     def _batch(
@@ -446,6 +448,7 @@ class Client:
                 rows=len(regimes),
                 invalid=counts[0],
                 inadmissible=counts[1],
+                without_end=counts[2],
                 bad_rows=[
                     Record(row=row, status=_STATUSES[status], field=field, description=description)
                     for row, status, field, description in bad_rows
@@ -504,7 +507,8 @@ class Client:
             The numbers of each column, ``regime``, and ``status``, which says whether a point is ``"OK"`` or
             ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN, and a warning ``InvalidRows`` says
             so; one whose outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there; ``"NOT_CONVERGED"`` is
-            one whose ``accuracy.relative_error`` exceeds the tolerance. ``attrs`` has the request and the engine, under
+            one whose ``accuracy.relative_error`` exceeds the tolerance. A warning ``NoEnd`` says which impacts have no
+            end, or an impact law without a solution. ``attrs`` has the request and the engine, under
             the names that the files of the command line have.
 
         Raises:
@@ -530,10 +534,11 @@ class Client:
             axes=dict(zip(given, coordinates)),
             is_grid=not zip_axes and bool(given),
             summary=Record(
-                points=len(regimes), by_regime=codes["regime"].counts(), invalid=counts[0], inadmissible=counts[1]),
+                points=len(regimes), by_regime=codes["regime"].counts(), invalid=counts[0], inadmissible=counts[1],
+                without_end=counts[2]),
             attrs={"Conventions": "CF-1.8", "title": _TITLE, **attrs},
         )
-        _warn_of_invalid(table)
+        _warn_of_rows(table)
         if form == "table":
             return table
         return table.to_xarray() if form == "xarray" else table.to_pandas()
@@ -763,14 +768,26 @@ def _warn_of_invalid(table: Table) -> None:
     if not table.summary.invalid:
         return
     reasons = table.summary.get("bad_rows")
-    if reasons:
-        first, why = reasons[0].row, f"{reasons[0].field} {reasons[0].description}"
-    else:
-        first = int(np.flatnonzero(np.isin(table.codes["status"].numbers, _WITHOUT_NUMBERS))[0])
-        why = ", ".join(f"{name} = {value:.6g}" for name, value in table.inputs_of(first).items())
-    text = (f"rows that break a rule and have NaN: {table.summary.invalid} of {len(table)}; "
-            f"the first is row {first}: {why}")
+    first = (f"row {reasons[0].row}: {reasons[0].field} {reasons[0].description}" if reasons
+             else _first_row(table, "status", _WITHOUT_NUMBERS))
+    text = f"rows that break a rule and have NaN: {table.summary.invalid} of {len(table)}; the first is {first}"
     warnings.warn(text, InvalidRows, stacklevel=_depth_of_caller())
+
+
+def _warn_of_rows(table: Table) -> None:
+    """Warns of rows without numbers, and of those whose numbers are not those of an end."""
+    _warn_of_invalid(table)
+    if table.summary.without_end:
+        first = _first_row(table, "regime", _WITHOUT_END)
+        text = (f"impacts without an end or a solution, which have the numbers of the state that was reached: "
+                f"{table.summary.without_end} of {len(table)}; the first is {first}")
+        warnings.warn(text, NoEnd, stacklevel=_depth_of_caller())
+
+
+def _first_row(table: Table, kind: str, codes: list[int]) -> str:
+    """Returns "row N: FIELD = VALUE, ..." of the first row that has one of the codes."""
+    row = int(np.flatnonzero(np.isin(table.codes[kind].numbers, codes))[0])
+    return f"row {row}: " + ", ".join(f"{name} = {value:.6g}" for name, value in table.inputs_of(row).items())
 
 
 def _row_count(lengths: list[int]) -> int:

@@ -65,7 +65,7 @@ class States:
         given = {name: column(value, name) for name, value in
                  (("M", M), ("J", J), ("qdot", qdot), ("normal", normal))}
         sizes = [given[name].shape[-1] if given[name].ndim else 0 for name in ("M", "J", "qdot")]
-        n = max(sizes, key=sizes.count)  # What most of them say, so that the other one is named.
+        n = max(sizes, key=sizes.count)  # The size that most arrays state, so that the one that differs is named.
         shapes = {"M": (n, n), "J": (3, n), "qdot": (n,), "normal": (3,)}
         lead = {array.shape[:-len(shapes[name])] for name, array in given.items()} - {()}
         several = lead - {(1,)}

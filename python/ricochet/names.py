@@ -35,7 +35,7 @@ def meanings(name: str, known: Collection[str]) -> list[str]:
 
 
 def _ends_in(path: str, name: str) -> bool:
-    # An error has the name of its number, and so has a number of the free end; the name alone means neither.
+    # Paths under errors. and free_end. end in the names of other numbers, so that the name alone never means them.
     return path == name or (path.endswith(f".{name}") and not path.startswith(("errors.", "free_end.")))
 
 

@@ -74,7 +74,7 @@ def _reading(name: str) -> Callable[..., Any]:
 
 
 def _reading_both(operation: Callable[[Any, Any], Any]) -> Callable[..., Any]:
-    # The operator asks the other one first if that is unread still.
+    # If `other` is still unread, the operator calls its method first, because its class is a subclass of Record.
     def read(self: Record, other: Any) -> Any:
         _core.read(self)
         return operation(self, other)

@@ -53,7 +53,7 @@ double FairQueue::ExpectedAhead(const Item& item) const {
       if (waiting->deadline <= item.deadline) own_s += waiting->expected_s;
     }
   }
-  // While this peer computes that and the call itself, every other peer gets as much at most.
+  // Peers share time equally, so while this peer computes all that and the call, every other one gets at most as much.
   double others_s = 0.0;
   for (auto peer = peers_.begin(); peer != peers_.end(); ++peer) {
     if (peer != own) others_s += std::min(peer->second.waiting_s, own_s + item.expected_s);

@@ -18,7 +18,7 @@ namespace {
 constexpr int64_t kFewLinks = 32;
 constexpr int64_t kShortHistory = 2048;
 constexpr int64_t kFewRows = 64;
-constexpr size_t kImpactsOfSearch = 200;  // A search for a threshold takes so many on a side of a number.
+constexpr size_t kImpactsOfSearch = 200;  // The impacts that a search for a threshold takes on each side of a number.
 constexpr size_t kFewSides = 16;          // Derivatives take two sides of each number of the scene.
 constexpr size_t kImpactsOfDifference = 64;
 constexpr double kFewContacts = 27;    // States times the cube of the contacts, in a plane.

@@ -84,7 +84,7 @@ struct LogWriter::State {
   State(std::string to, Descriptor opened, size_t bytes)
       : path(std::move(to)), buffer_bytes(bytes), file(std::move(opened)) {}
 
-  // These are the thread's: its work until `ended`.
+  // Only the thread of the writer calls these; Run returns once it has set `ended`.
   void Run();
   bool Take(std::string& batch);
   void WriteAll(const std::string& batch);

@@ -32,7 +32,7 @@ using prometheus::Family;
 using prometheus::Histogram;
 using Buckets = Histogram::BucketBoundaries;
 
-// Seconds and bytes of gRFC A66.
+// These two return the bucket boundaries of gRFC A66, for times in seconds and for sizes in bytes.
 const Buckets& Seconds() {
   static const Buckets buckets = {0,     0.00001, 0.00005, 0.0001, 0.0003, 0.0006, 0.0008, 0.001, 0.002, 0.003, 0.004,
                                   0.005, 0.006,   0.008,   0.01,   0.013,  0.016,  0.02,   0.025, 0.03,  0.04,  0.05,
@@ -91,7 +91,7 @@ struct Metrics::Counted {
   Family<Counter>& solved = AddCounters("ricochet_solved_total", "Valid impacts by the model that the plan picked.");
 };
 
-// The metrics that are asked for.
+// Holds the metrics whose values are asked for at each scrape.
 class Metrics::Asked {
  public:
   void Add(const std::string& name, const std::string& help, prometheus::MetricType type,

@@ -421,6 +421,18 @@ class Answers(Case):
             warnings.simplefilter("error")
             ricochet.sweep(PENDULUM, {"mu": [0, 0.1]}, NEWTON)
 
+    def test_impacts_without_an_end_are_a_warning_where_they_were_asked_for(self):
+        wedge = {"planar_contact": {"w_tt_per_kg": 1, "w_tn_per_kg": 1, "w_nn_per_kg": 1, "tangential_m_s": 1,
+                                    "normal_m_s": -1}, "restitution": {"energetic": 0.5}}
+        law = {"planar_contact": {"w_tt_per_kg": 2.5, "w_tn_per_kg": -1.5, "w_nn_per_kg": 1, "tangential_m_s": 1,
+                                  "normal_m_s": -1}, "brach": {"e": 0.5, "mu_hat": 0}}
+        for scene, path in ((wedge, MU), (law, "brach.mu_hat")):
+            for call in (ricochet.sweep, ricochet.solve_batch):
+                with self.subTest(path, call=call), self.assertWarnsRegex(
+                        ricochet.NoEnd, rf"2 of 3; the first is row 1: {path} = 2") as caught:
+                    call(scene, {path: [0, 2, 2]}, "normal_m_s")
+                self.assertEqual(caught.filename, __file__)
+
 
 class Help(unittest.TestCase):
     def test_every_function_says_its_parameters(self):

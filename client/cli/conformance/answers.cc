@@ -102,7 +102,7 @@ absl::Status ParseWithoutTwins(const std::string& text, const std::string& name,
         error.byte > text.size()
             ? absl::StrCat(name, " ends within its JSON, at byte ", text.size(), "; is it whole?")
             : absl::StrCat(name, " is not JSON from byte ", error.byte, " of ", text.size(), " on; is it whole?"));
-  } catch (const Json::exception&) {  // The only other one is that of a number.
+  } catch (const Json::exception&) {  // The only other exception is that of a number out of range.
     return absl::InvalidArgumentError(absl::StrCat(name, " has a number that exceeds the largest double"));
   }
 }

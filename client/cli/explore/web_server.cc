@@ -32,7 +32,7 @@ constexpr char kBearer[] = "Bearer ";
 
 constexpr size_t kMostBodyBytes = size_t{1} << 20;
 
-// Nothing that a browser could make of an answer beside its purpose.
+// These headers keep a browser from storing an answer, guessing its type or giving it to pages of other origins.
 constexpr char kHeaders[] =
     "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n"
     "Cross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\n";

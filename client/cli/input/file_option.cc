@@ -63,7 +63,7 @@ absl::Status UseFilesOf(CLI::App& app) {
     const std::optional<FileUse> use = FileUseOf(*option);
     const bool is_answer = option->check_lname("output");
     if (!use.has_value() || (is_answer && WritesShard(app))) continue;
-    // A command without --format writes something else than its answer.
+    // Only a command with --format writes an answer, which goes to standard output unless --output names a file.
     const bool has_answer = is_answer && app.get_option_no_throw("--format") != nullptr;
     const std::string path = option->count() > 0 ? option->results().back() : has_answer ? "-" : "";
     if (path.empty()) continue;

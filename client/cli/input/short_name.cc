@@ -32,8 +32,8 @@ constexpr std::pair<const char*, const char*> kLetters[] = {
     {"mu", "friction"},
 };
 
-// True if `path` is `name`, or ends in it after a dot. An error has the name of its number, and so has a number of the
-// end with no coordinate held; the name alone means neither.
+// True if `path` is `name`, or ends in it after a dot. Paths under "errors." and "free_end." end in the names of other
+// numbers, so that the name alone never means them.
 bool EndsIn(const std::string& path, const std::string& name) {
   return path == name || (absl::EndsWith(path, absl::StrCat(".", name)) && !absl::StartsWith(path, "errors.") &&
                           !absl::StartsWith(path, "free_end."));
@@ -43,7 +43,7 @@ bool EndsIn(const std::string& path, const std::string& name) {
 // name.
 absl::StatusOr<std::string> NearShortName(const std::string& name, const std::vector<std::string>& known,
                                           const std::string& what) {
-  // Shorter names are near to too many.
+  // A shorter name is near to too many endings to suggest one of them.
   constexpr size_t kLeast = 4;
   if (name.size() < kLeast || absl::StrContains(name, '.') || absl::StrContains(name, '*')) return name;
   std::vector<std::string> endings;

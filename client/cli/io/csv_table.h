@@ -16,7 +16,7 @@
 
 namespace ricochet::cli {
 
-// Spreadsheets and some editors put it in front of a text in UTF-8.
+// Spreadsheets and some editors put this mark in front of a text in UTF-8.
 inline constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
 
 // Errors: INVALID_ARGUMENT for a text that begins with the byte order mark of UTF-16; `name` names it.

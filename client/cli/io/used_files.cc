@@ -27,7 +27,7 @@ std::map<std::string, Used>& AllUsed() {
 
 std::string InodeText(const struct stat& info) { return absl::StrCat("inode ", info.st_dev, " ", info.st_ino); }
 
-// Returns nothing for what can be used more than once.
+// Returns an empty text for standard input that is not a file, because it may be used more than once.
 std::string IdentityOfStream(FileUse use) {
   struct stat info;
   const int descriptor = use == FileUse::kRead ? STDIN_FILENO : STDOUT_FILENO;

@@ -25,7 +25,7 @@ constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#5
 constexpr std::array kDashes = {"1", "'-'", "'.'", "'-.'", "'_ '", "'-..'", "'_.'"};
 
 constexpr double kLineWidth = 2.0;
-// A curve is so much wider than the next one that lies on it, which is drawn upon it.
+// A curve that later curves cover is drawn wider by this much for each of them, so that it still shows below them.
 constexpr double kRibbon = 3.0;
 constexpr int kMostRibbons = 4;
 
@@ -204,7 +204,7 @@ std::vector<std::string> AppendCurves(const std::string& prefix, const Panel& pa
       add(name, curve.points, curve.style, curve.title);
     }
     if (!curve.style.empty()) continue;
-    // Where later curves lie on a tenth of this one or more, it is a ribbon below them, as wide as they are many.
+    // Where `least` or more later curves cover a tenth of this one, it is drawn as a wider ribbon below them.
     for (int64_t least = kMostRibbons; least > 0; --least) {
       const auto is_hidden = [&](int64_t count) { return count >= least; };
       const int64_t hidden = std::count_if(later[i].begin(), later[i].end(), is_hidden);

@@ -12,8 +12,8 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr size_t kLeastForAFew = 10;  // Fewer values have none that are "a few".
-constexpr size_t kFew = 20;           // A few are one of so many.
+constexpr size_t kLeastForAFew = 10;  // Of fewer values none may lie outside the middle part.
+constexpr size_t kFew = 20;           // On each side, one value in this many may lie outside the middle part.
 constexpr double kFarBeyond = 4.0;    // Lengths of the middle part.
 constexpr double kBeside = 0.25;
 constexpr double kDecades = 30.0;
@@ -21,7 +21,7 @@ constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 size_t AFewOf(size_t count) { return count < kLeastForAFew ? 0 : (count + kFew - 1) / kFew; }
 
-// `values` grow.
+// `values` must be in ascending order.
 bool SpanDecades(const std::vector<double>& values) {
   if (values.size() < 3 || !(values.front() > 0.0)) return false;
   const size_t few = std::max<size_t>(1, AFewOf(values.size()));
@@ -39,7 +39,7 @@ double RoundedOut(double value, int exponent, bool up) {
 // The second digit of a length.
 int SecondDigit(double length) { return static_cast<int>(std::floor(std::log10(length))) - 1; }
 
-// Widens `middle` to the middle part of a group, whose finite values grow.
+// Widens `middle` to the middle part of a group, whose finite values are in ascending order.
 void Hold(const std::vector<double>& values, AxisRange& middle) {
   if (values.empty()) return;
   const size_t few = AFewOf(values.size());
@@ -47,18 +47,18 @@ void Hold(const std::vector<double>& values, AxisRange& middle) {
   middle.upper = std::max(middle.upper, values[values.size() - 1 - few]);
 }
 
-// Returns how many of the places, which grow, lie before those that are far above the middle part.
+// Returns how many of the places, in ascending order, lie before those that are far above the middle part.
 size_t CountBelowTheFar(const std::vector<double>& places, double low, double high) {
   const double length = high - low;
   if (length <= kRounding * std::max(std::abs(low), std::abs(high))) return places.size();
   if (places.back() - high <= kFarBeyond * length) return places.size();
   const auto far = std::upper_bound(places.begin(), places.end(), high + kBeside * length);
-  // One value may be a pole of any size; beside a region of others, so short a middle part is the rounding of zero.
+  // A single far value may be a pole. Beside several far values, so short a middle part is only the rounding of zero.
   if (places.end() - far > 1 && length <= kRounding * std::abs(*far)) return places.size();
   return static_cast<size_t>(far - places.begin());
 }
 
-// The ends for finite values, which grow.
+// Returns the ends for finite values in ascending order.
 AxisRange EndsOf(const std::vector<double>& values, const AxisRange& middle, bool log) {
   const auto place = [log](double value) { return log ? std::log10(value) : value; };
   const double low = place(middle.lower);

@@ -17,7 +17,7 @@ constexpr char kData[] = "with points pointtype 7 pointsize 0.9 linecolor rgb '#
 constexpr char kModel[] = "with points pointtype 6 pointsize 1.3 linewidth 1.5 linecolor rgb '#D55E00'";
 constexpr char kProfile[] = "with linespoints pointtype 7 pointsize 0.5 linewidth 1.5 linecolor rgb '#0072B2'";
 constexpr char kBest[] = "with points pointtype 1 pointsize 1.5 linewidth 2 linecolor rgb '#404040'";
-// The panel of a profile reaches so high.
+// The panel of a profile leaves out rises above this.
 constexpr double kMostRise = 12.0;
 // Residuals beyond these are rare.
 constexpr double kRare = 2.0;

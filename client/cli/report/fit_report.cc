@@ -15,7 +15,7 @@
 namespace ricochet::cli {
 namespace {
 
-// The text shows residuals of so many rows, and so many rows that tell most about an unknown.
+// The text shows residuals of this many rows at most, and kShownShares rows that tell most about an unknown.
 constexpr size_t kShownRows = 40;
 constexpr size_t kShownShares = 3;
 

@@ -55,15 +55,15 @@ class InvalidCounts {
   std::string Text() const;
 
  private:
-  // Finding a reason takes microseconds, so that the reasons of these points stand for all.
+  // Finding a reason takes microseconds, so only this many invalid points are examined, and they stand for all.
   static constexpr int64_t kMostReasons = 100'000;
 
   bool IsInvalid(const SweepChunk& chunk, int64_t i);
 
   InvalidPoints points_;
   bool may_lack_numbers_;  // A valid point may have NaN in every column.
-  int64_t count_ = 0;      // So many points were added.
-  int64_t total_ = 0;      // The whole sweep has so many.
+  int64_t count_ = 0;      // The number of invalid points examined.
+  int64_t total_ = 0;      // The number of invalid points in the whole sweep.
   std::map<std::string, Tally> by_rule_;
 };
 

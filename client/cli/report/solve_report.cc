@@ -300,7 +300,7 @@ Table StateTable(const State& state) {
   return table;
 }
 
-// Says what no number of the outcome does.
+// Returns the notes, which say what no number of the outcome shows.
 std::string NotesText(const std::vector<Note>& notes) {
   std::string text;
   for (const Note& note : notes) absl::StrAppend(&text, "Note: ", note.text, "\n");
@@ -319,7 +319,7 @@ void AppendSingle(const Message& message, const FieldDescriptor* field, const st
   is_unset = is_unset || ((is_message || field->has_optional_keyword()) && !reflection.HasField(message, field));
   if (is_message) {
     if (field->message_type() == v1::Certificate::descriptor()) return;
-    // Only a request for it gives these columns.
+    // These columns exist only if the answer has a free end, which a request has to ask for.
     if (field->message_type() == v1::FreeEnd::descriptor() && !reflection.HasField(message, field)) return;
     return AppendFields(reflection.GetMessage(message, field), absl::StrCat(path, "."), is_unset, row);
   }

@@ -25,7 +25,7 @@ std::string Quoted(const std::string& argument) {
   return plain ? argument : absl::StrCat("'", absl::StrReplaceAll(argument, {{"'", "'\\''"}}), "'");
 }
 
-// A manifest costs two waits for the disk. A run that is killed loses the points of this time at most.
+// A checkpoint waits for the disk twice. A run that is killed loses at most the points of this interval.
 constexpr std::chrono::milliseconds kBetweenCheckpoints{500};
 
 Partial IdentityOf(const SweepRequest& request, const std::string& format) {

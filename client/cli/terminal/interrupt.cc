@@ -35,7 +35,7 @@ void Interrupt::Wait() { happened.wait(false); }
 void Interrupt::EndAtSignals() {
   const auto end = [](int /*signal*/) {
     constexpr char kText[] = "ricochet: interrupted\n";
-    // Nothing can be done if nobody hears it.
+    // The process ends in any case, so that a failed write is ignored.
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof(kText) - 1);
     _exit(kInterruptedExitCode);
   };

@@ -51,7 +51,7 @@ std::string NoSuchArgument(const CLI::App& app, const std::string& word) {
   if (std::find(names.begin(), names.end(), flag) != names.end()) {
     return absl::StrCat(flag, " is not expected here: must stand behind ", CallOf(app), " and before --", help);
   }
-  // Two dashes and one letter begin too many names.
+  // Two dashes and one letter begin too many names to suggest one of them.
   const auto longer = std::find_if(names.begin(), names.end(), [&flag](const std::string& name) {
     return flag.size() > 3 && absl::StartsWith(name, flag);
   });

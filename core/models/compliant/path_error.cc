@@ -10,12 +10,12 @@ namespace {
 // Positions in a covariance.
 constexpr size_t kNormalForce = 0, kSpringForce = 1, kU = 2, kV = 3;
 
-// A velocity errs by no more than so many standard deviations, and by this part of one more for each section: sections
-// that repeat each other do not round independently.
+// A velocity errs by no more than kSafety standard deviations, and kSafetyOfSection of one more for each section,
+// because sections that repeat each other do not round independently.
 constexpr double kSafety = 2.0;
 constexpr double kSafetyOfSection = 0.02;
 constexpr double kUnit = 0x1p-53;
-// A path that misses an event by no more than so many standard deviations may have it in truth.
+// If a path misses an event by at most this many standard deviations, the true path may have the event.
 constexpr double kDoubt = 8.0;
 
 // How the deviations of a slide grow: in N and v by (C, S), the solutions of x'' = -kn B x that begin as (1, 0) and

@@ -40,7 +40,7 @@ class PathError {
   // A stick from `before` to `after`, at the phase `phase` of its oscillations after `time`.
   void AddStick(const SectionMode& mode, const NormalModes& modes, const Phase& phase, double time,
                 const ContactState& before, const ContactState& after, const SectionEnd& end);
-  // The impact ends in `state` because v = 0 there, wherever that is.
+  // Carries the deviations to the point where v = 0, because the true impact ends there, near `state`.
   void EndAtRest(const SectionMode& mode, const ContactState& state);
 
   // The sizes that the errors of u, v and N do not exceed; infinite if nothing is known of them.

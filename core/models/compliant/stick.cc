@@ -70,7 +70,7 @@ TimedEnd FirstEvent(const SpringContact& contact, const SectionMode& mode, const
   return passes < kNever ? TimedEnd{.time = passes, .end = {.passes_largest = true}} : first;
 }
 
-// Sets |p| = mu N from whichever of the two mu does not magnify the rounding of.
+// Makes |p| = mu N by correcting N if mu > 1, and p otherwise, so that mu does not magnify the rounding.
 void PutOnCone(const SpringContact& contact, int side, ContactState& state) {
   if (contact.mu > 1.0) {
     state.normal_force = std::fabs(state.spring_force) / contact.mu;

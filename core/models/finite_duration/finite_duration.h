@@ -52,7 +52,7 @@ struct Impact : ImpactEnd<double> {
   double spring_energy = 0.0;         // Lost with the tangential spring, >= 0.
   double error_estimate = 0.0;        // Error of the velocities over max(|u0|, |v0|).
   ImpactErrors errors;                // Impulses have none under finite forces or if W has rank one.
-  bool stopped = false;               // The caller wanted no more: nothing else is known.
+  bool stopped = false;               // The caller stopped the computation, and nothing else is known.
   int64_t steps = 0;
   int64_t right_hand_sides = 0;
   ContactDuration contact;  // Duration, peaks, history.

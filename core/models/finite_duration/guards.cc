@@ -50,7 +50,7 @@ Guards GuardsAt(const ScaledContact& contact, const Mode& mode, const Motion& y)
   if (mode.Unloads()) guards[kBranchEnd] = y[kPlace];
   if (mode.branch == LoadingBranch::kReloading) guards[kBranchEnd] = mode.largest_place - y[kPlace];
   if (contact.damped) {
-    // N' over x^(p-1).
+    // The guard of the extreme force is N' over x^(p-1).
     const double x = contact.rooted ? Square(y[kPlace]) : y[kPlace];
     const double stretch = 1.0 - contact.damping * y[kV];
     guards[kForceExtreme] = -contact.exponent * y[kV] * stretch - x * contact.damping * rate.v;

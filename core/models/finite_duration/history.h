@@ -21,7 +21,7 @@ class HistoryRecorder {
   void Begin(const Mode& mode, const Motion& y) { samples_.push_back(SampleOf(mode, y, 0.0)); }
   // Adds the samples within the last step, which ends at `y`. Once stopped, it adds no more.
   void AddSamplesOfStep(const Mode& mode, const Motion& y, StopCheck& stop);
-  // Fills up with the state at the end. Where not even the first step could be taken, all samples are that.
+  // Sets the samples that are left to the state at the end; these are all if not even the first step could be taken.
   void End(const Mode& mode, const Motion& y);
 
   const std::vector<ForceSample>& samples() const { return samples_; }

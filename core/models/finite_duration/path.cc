@@ -102,7 +102,7 @@ class PathFollower {
     path_.peaks.Add(contact_, mode_, y_);
   }
 
-  // Where v is far below the unit of the tolerance, all that follows from it may be rounding. Time that runs back is.
+  // Where v is far below the unit of the tolerance, all that follows from it may be rounding. A time that runs back is.
   bool RunsBack(double time) const {
     constexpr double kRounding = 1e-9;
     return time < y_[kTime] * (1.0 - kRounding) || time < 0.0;

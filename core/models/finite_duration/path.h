@@ -34,7 +34,7 @@ enum class PathEnd {
   kHeld,    // Friction and the spring hold the contact at rest where compression ends.
   kBudgetUsedUp,
   kNeverEnds,  // It goes on for ever, or it is lost in rounding or beyond the largest double.
-  kStopped     // The caller wanted no more.
+  kStopped     // The caller stopped the computation.
 };
 
 // The largest values on the path.

@@ -27,7 +27,7 @@ struct CurveOf {
   }
 };
 
-// T of k Wnn |v0|^(p-1) T^(p+1) = 1. The roots are taken one by one, so that no power leaves the range of doubles.
+// Solves k Wnn |v0|^(p-1) T^(p+1) = 1 for T, root by root, so that no power leaves the range of doubles.
 double NaturalTime(const Curve& curve, double wnn, double speed) {
   const double root = 1.0 / (curve.exponent + 1.0);
   return Pow(curve.stiffness, -root) * Pow(wnn, -root) * Pow(speed, -(curve.exponent - 1.0) * root);

@@ -336,7 +336,7 @@ void SolveAlone(const Block& block, size_t i) {
   }
 }
 
-// In double-double arithmetic.
+// Solves the block in double-double arithmetic.
 void SolveCompensated(const Block& block) {
   const double* const omega = block.problems.omega_minus() + block.first;
   for (size_t from = 0; from < block.size;) {

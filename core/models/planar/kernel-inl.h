@@ -123,12 +123,12 @@ HWY_INLINE Plain<V> Abs(const Plain<V>& x) {
   return Plain<V>(ricochet::HWY_NAMESPACE::Absolute(x.value));
 }
 
-// a b - c d.
+// Returns a b - c d.
 template <typename N>
 HWY_INLINE N DifferenceOfProducts(const N& a, const N& b, const N& c, const N& d) {
   return a * b - c * d;
 }
-// Right to 2 u (Jeannerod, Louvet and Muller, 2013).
+// The result is right to 2 u (Jeannerod, Louvet and Muller, 2013).
 template <typename V>
 HWY_INLINE Plain<V> DifferenceOfProducts(const Plain<V>& a, const Plain<V>& b, const Plain<V>& c, const Plain<V>& d) {
   using ricochet::HWY_NAMESPACE::FmaSubtract;
@@ -137,7 +137,7 @@ HWY_INLINE Plain<V> DifferenceOfProducts(const Plain<V>& a, const Plain<V>& b, c
   return Plain<V>(FmaSubtract(a.value, b.value, product) + NegativeFma(c.value, d.value, product));
 }
 
-// x or -x.
+// Returns -x where `negative` is true, and x elsewhere.
 template <typename N>
 HWY_INLINE N Signed(const N& x, const MaskOf<N>& negative) {
   return Select(negative, -x, x);

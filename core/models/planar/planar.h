@@ -55,7 +55,7 @@ struct RoundingErrors {
   double Largest() const { return std::max({velocity, counted_impulse, work}); }
 };
 
-// In double-double arithmetic. `numbers` receives the error of each number on its own scale, unless it is null.
+// Solves in double-double arithmetic. `numbers` receives the error of each number on its own scale, unless it is null.
 Impact Solve(const Problem& problem);
 Impact Solve(const Problem& problem, RoundingErrors& errors, ImpactErrors* numbers = nullptr);
 

@@ -121,7 +121,7 @@ HWY_INLINE RegimeCode<N> RegimeOf(const Course<N>& course) {
   regime = Codes::Select(slides, CodeOfRegime<N>(Regime::kSliding), regime);
   regime = Codes::Select(Either(smooth, without_friction), CodeOfRegime<N>(Regime::kFrictionless), regime);
   if (InNoLane(in.rank_one)) return regime;
-  // Friction that moves nothing has an impulse all the same where the surface slips by.
+  // If Wtt = 0, friction moves nothing, but it still has an impulse where the contact slips.
   const MaskOf<N> rubs = Both(Not(IsPositive(in.wtt)), Either(IsPositive(path.first.f), IsNegative(path.first.f)));
   regime = Codes::Select(Both(in.rank_one, rubs), CodeOfRegime<N>(Regime::kSliding), regime);
   return Codes::Select(course.held, EitherRegime<N>(course.jammed, Regime::kWedged, Regime::kLocked), regime);

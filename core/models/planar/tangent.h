@@ -25,7 +25,7 @@ struct Direction {
   double u0 = 0.0, v0 = 0.0, mu = 0.0, mu_static = 0.0, coefficient = 0.0;
 };
 
-// A Branch decides which course an impact takes.
+// A Branch tells which course an impact takes.
 struct Branch {
   Regime regime = Regime::kUnspecified;
   bool approaches = false;

@@ -125,7 +125,7 @@ Impact<kTangential> MakeImpact(const Problem<kTangential>& problem, const Vector
 template <size_t kTangential>
 constexpr double kDirectionErrors = kTangential == 1 ? 0.0 : 6.0;
 
-// Their values, relative to v'; infinite if v' is not positive.
+// Returns what these roundings change of v', relative to v'; infinite if v' is not positive.
 template <size_t kTangential>
 double ConditioningOf(const Problem<kTangential>& problem, const Slopes<kTangential>& slopes) {
   if (!(slopes.v > 0.0)) return std::numeric_limits<double>::infinity();

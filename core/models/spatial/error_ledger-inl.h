@@ -86,8 +86,8 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   EndErrors<T> AtEnd(const Path<T>& path, const Slopes<T>& slopes) const;
 
  private:
-  // The known error is a linear estimate of an error that is not: it counts so often. In impulses and works, which have
-  // no other number whose error is larger, it counts more often.
+  // The known error is a linear estimate of a nonlinear error, so it counts this often. In impulses and works, which
+  // have no other number whose error is larger, it counts more often.
   static constexpr T kSafety{2};
   static constexpr T kSafetyOfImpulses{4};
   // The part of the known errors that counts for a velocity by itself, in addition.

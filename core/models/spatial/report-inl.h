@@ -24,7 +24,7 @@ namespace ricochet::spatial::HWY_NAMESPACE {
 
 namespace internal {
 
-// value/whole; 0 where the whole is 0.
+// Returns value/whole, or 0 where the whole is 0.
 template <typename T>
 double Share(T value, T whole) {
   return whole == T{0} ? 0.0 : static_cast<double>(value / whole);

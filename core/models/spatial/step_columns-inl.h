@@ -110,7 +110,7 @@ class StepColumns {
   void Set(size_t lane, const Solver<double>& solver);
   // Sets a lane to another place on the path of the same impact.
   void SetPath(size_t lane, const Solver<double>& solver);
-  // Leaves a lane without an impact: none of its numbers is one, so that it never comes to a goal.
+  // Leaves a lane without an impact: its state is NaN, so that it never reaches a goal.
   void SetIdle(size_t lane);
 
   // Takes the steps of all lanes. Each lane is then set to its next step, unless it needs attention.

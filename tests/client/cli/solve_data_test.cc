@@ -173,5 +173,19 @@ TEST_F(CliSolveData, StrictFailsIfALawHasNoSolution) {
   EXPECT_THAT(rows.err, HasSubstr("1 of 2 rows are not admissible"));
 }
 
+TEST_F(CliSolveData, StrictFailsIfAnImpactHasNoEnd) {
+  Write("wedge.textproto", R"(
+    planar_contact { w_tt_per_kg: 1 w_tn_per_kg: 1 w_nn_per_kg: 1 tangential_m_s: 1 normal_m_s: -1 }
+    friction { kinetic_coefficient: 2 }
+    restitution { energetic: 0.5 })");
+  const CliResult one = Run({"solve", "--scene", "wedge.textproto", "--strict"});
+  EXPECT_EQ(one.exit_code, 42);
+  EXPECT_THAT(one.err, HasSubstr("FAILED_PRECONDITION: the contact has no end that is known"));
+  const CliResult rows = Run({"solve", "--scene", "wedge.textproto", "--data", "-", "--strict"}, "mu\n0.1\n2\n");
+  EXPECT_EQ(rows.exit_code, 42);
+  EXPECT_THAT(rows.out, HasSubstr("2 rows, 0 without numbers, 0 inadmissible, 1 without an end or a solution"));
+  EXPECT_THAT(rows.err, HasSubstr("1 of 2 rows are not admissible or have no end"));
+}
+
 }  // namespace
 }  // namespace ricochet::cli

@@ -90,7 +90,7 @@ inline ClaimTally ClaimsOf(bool hard, int count, uint64_t seed) {
   return tally;
 }
 
-// Number by number. The oracle knows the tangential work as a whole.
+// Compares impacts number by number. The oracle knows only the whole tangential work.
 inline NumberClaims NumberClaimsOf(bool hard, int count, uint64_t seed) {
   SceneSource source(seed);
   NumberClaims claims;

@@ -120,7 +120,7 @@ inline std::optional<ImpactEnd<double>> ClosedFormOf(const Problem& problem) {
   return exact;
 }
 
-// Number by number, and the works against the change of energy.
+// Compares impacts number by number, and the works with the change of energy.
 inline NumberClaims NumberClaimsOf(ClaimKind kind, bool hard, double tolerance, int count, uint64_t seed) {
   ClaimScenes scenes(kind, hard, seed);
   NumberClaims claims;

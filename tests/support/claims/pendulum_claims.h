@@ -153,7 +153,7 @@ inline ComparedNumbers CompareNumbers(const Impact& impact, const ExactImpact& e
           .energy_change = of(Output::kEnergyChange)};
 }
 
-// Number by number, in plain or in double-double arithmetic.
+// Compares impacts number by number, in plain or in double-double arithmetic.
 inline NumberClaims NumberClaimsOf(bool is_plain, bool hard, int count, uint64_t seed) {
   SceneSource source(seed);
   NumberClaims claims;
@@ -236,7 +236,7 @@ inline Claims ClaimsOf(bool hard, int count, uint64_t seed) {
   return claims;
 }
 
-// Number by number; `friction` false asks for the impact without any.
+// Compares first-order impacts number by number; without `friction` the problems have none.
 inline NumberClaims NumberClaimsOf(bool friction, bool hard, int count, uint64_t seed) {
   pendulum::SceneSource source(seed);
   NumberClaims claims;

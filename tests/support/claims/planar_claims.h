@@ -146,8 +146,8 @@ inline Claims ClaimsOf(PlainImpact (*solve)(const Problem& problem, ImpactErrors
   return claims;
 }
 
-// The same scenes, or some whose |v0| is down to 1e-300 of |u0|, number by number. A regime that is not the exact one
-// deceives.
+// Compares the same scenes number by number; with `grazing`, |v0| is down to 1e-300 of |u0|. An impact whose regime is
+// not the exact one claims no errors, so that its claims count as broken.
 inline NumberClaims NumberClaimsOf(PlainImpact (*solve)(const Problem& problem, ImpactErrors* numbers), bool hard,
                                    bool grazing, int count, uint64_t seed) {
   SceneSource source(seed);

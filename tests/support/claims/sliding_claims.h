@@ -160,7 +160,7 @@ ComparedNumbers CompareNumbers(const Problem<kTangential>& p, const Impact<kTang
           .energy_change = {impact.energy_change, normal * (1.0 - c * c) + tangential}};
 }
 
-// Number by number; |v0| of a grazing scene is down to 1e-300 of |u0|.
+// Compares impacts number by number; |v0| of a grazing scene is down to 1e-300 of |u0|.
 template <size_t kTangential>
 NumberClaims NumberClaimsOf(bool friction, bool hard, bool grazing, int count, uint64_t seed) {
   ClaimScenes<kTangential> scenes(seed);

@@ -10,7 +10,7 @@
 namespace ricochet::compliant {
 namespace {
 
-// In s = t/h from the beginning of a step.
+// The variable is s = t/h, counted from the beginning of a step.
 using Polynomial = std::vector<Ball>;
 
 Ball At(const Polynomial& p, const Ball& s) {
@@ -138,7 +138,7 @@ class Simulation {
   Ball B(int side) const { return Middle(wnn_ - side * mu_ * wtn_); }
   Ball A(int side) const { return Middle(side * wtn_ - mu_ * wtt_ + mu_ * r2_ * Kn() * B(side)); }
 
-  // -1, 0 or 1: what is a trifle of its terms is 0.
+  // Returns -1, 0 or 1; a value that is a tiny part of its terms counts as 0.
   int SignOf(const Ball& x, const Ball& terms) const {
     if (Middle(Abs(x)) <= Middle(terms) * Ball::PowerOfTwo(-bits_ / 2)) return 0;
     return x > Ball(0.0) ? 1 : -1;
@@ -153,7 +153,7 @@ class Simulation {
     return SignOf(A(side), Abs(wtn_) + mu_ * wtt_ + mu_ * r2_ * Kn() * (wnn_ + mu_ * Abs(wtn_)));
   }
 
-  // Where the particle is on the edge of the cone at side_: does it slide there?
+  // Lets the particle, which is on the edge of the cone at side_, stick unless it slides there.
   void Settle() {
     if (problem_.contact.mu == 0.0) return;
     const int slip = SlipSign(side_);
@@ -161,7 +161,7 @@ class Simulation {
     side_ = 0;
   }
 
-  // A power of two of no more than a radian.
+  // Returns a step, a power of two, of at most one radian of the fastest oscillation.
   Ball StepLength() const {
     const Ball squared = side_ == 0 ? wtt_ / r2_ + Kn() * wnn_ : Kn() * (wnn_ + mu_ * Abs(wtn_));
     const slong exponent = squared.Exponent();

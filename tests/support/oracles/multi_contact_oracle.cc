@@ -61,7 +61,7 @@ class Real {
 using Reals = std::vector<Real>;
 using Matrix = std::vector<Reals>;
 
-// Numbers of the size of 1 that are no larger count as 0.
+// Sums of terms of size 1 that are no larger than this count as 0.
 const double kTiny = 1e-25;
 
 size_t At(int i) { return static_cast<size_t>(i); }

@@ -56,7 +56,7 @@ struct Coefficients {
   Ball newton, poisson, energetic;
 };
 
-// [15], [24], [25].
+// Converts the stated coefficient to all three by [15], [24] and [25].
 Coefficients Convert(const Problem& problem, const Ball& r, slong bits) {
   const Ball c(problem.coefficient, bits);
   switch (problem.law) {

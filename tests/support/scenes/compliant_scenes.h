@@ -27,8 +27,8 @@ class SceneSource {
  public:
   explicit SceneSource(uint64_t seed) : random_(seed) {}
 
-  // Full rank; ratio^2 between the two. One scene in four has much friction, one in eight no slip at first. Five times
-  // W or a velocity is exact.
+  // W has full rank, and ratio^2 lies between the arguments. One scene in four has much friction, one in eight starts
+  // without slip. Five times an entry of W or a velocity is exact.
   Problem Everyday(double least_ratio_squared, double largest_ratio_squared) {
     const double t = LogUniform(0.1, 3.0);
     const double n = LogUniform(0.1, 3.0);

@@ -22,7 +22,7 @@ struct SolvedInLanes {
   std::vector<std::vector<double>> columns;  // One for each output, with one entry for each problem.
   std::vector<Regime> regimes;
   std::vector<bool> inadmissible;
-  size_t compensated = 0;  // So many planar problems were compensated.
+  size_t compensated = 0;  // The number of planar problems that needed compensated arithmetic.
 };
 
 // `solve(law, problems, solved)` solves problems of one law, and returns how many of them plain arithmetic did not
