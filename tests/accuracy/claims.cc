@@ -120,16 +120,20 @@ void AddNumbersOfClosedForms(int count, Jobs& jobs) {
 // The velocities of a mechanism after the impact, and the momentum that it takes.
 void AddMechanisms(int count, Jobs& jobs) {
   if (std::string("mechanism").find(jobs.only) == std::string::npos) return;
+  const auto add = [&](const char* scenes, const std::string& where, bool in_space, bool hard, bool one_free) {
+    jobs.all.push_back([=] {
+      const int scene_count = in_space ? count / 10 : count;
+      const MechanismClaims claims = MechanismClaimsOf(in_space, hard, scene_count, kSeed, one_free);
+      return std::vector<Row>{{"mechanism, rates" + where, scenes, claims.rates},
+                              {"mechanism, mom." + where, scenes, claims.momentum}};
+    });
+  };
   ForBothKinds([&](const char* scenes, bool hard) {
-    for (const bool in_space : {false, true}) {
-      jobs.all.push_back([=] {
-        const MechanismClaims claims = MechanismClaimsOf(in_space, hard, in_space ? count / 10 : count, kSeed);
-        const std::string where = in_space ? " (3D)" : " (2D)";
-        return std::vector<Row>{{"mechanism, rates" + where, scenes, claims.rates},
-                                {"mechanism, mom." + where, scenes, claims.momentum}};
-      });
-    }
+    add(scenes, " (2D)", /*in_space=*/false, hard, /*one_free=*/false);
+    add(scenes, " (3D)", /*in_space=*/true, hard, /*one_free=*/false);
   });
+  // Held coordinates count as known, and a hard M would leave one free coordinate as it is.
+  add("one free", " (3D)", /*in_space=*/true, /*hard=*/false, /*one_free=*/true);
 }
 
 // Several contacts in a plane: the velocities of orders and of springs, whether a sequence is missing, how far exact
