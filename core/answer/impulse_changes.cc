@@ -81,11 +81,11 @@ class Neighbours {
   // The root of x^T Wtt^-1 x for all x whose components are no larger.
   double Norm(const Vector<kTangential>& x) const {
     double sum = 0.0;
+    if (has_one_direction_) {
+      for (size_t i = 0; i < kTangential; ++i) sum += std::fabs(direction_[i]) * x[i];
+      return sum / root_trace_;
+    }
     for (size_t i = 0; i < kTangential; ++i) {
-      if (has_one_direction_) {
-        sum += std::fabs(direction_[i]) * x[i] / root_trace_;
-        continue;
-      }
       if (x[i] > 0.0) sum += x[i] / roots_[i];
     }
     return Weighted(conditioning_, sum);
@@ -409,8 +409,8 @@ Impulses<kTangential> Comparison<kTangential>::Bound() const {
   change.fill(kInfinity);
   const bool locks = outcome_.regime == Regime::kLocked;
   if (!course_.is_known || !(near_.SpeedGap(0.0) < -0.5 * course_.v0)) return change;
-  if (locks && !(freedom_ == Freedom::kOneAlone && near_.SurelyHolds() && Length<kTangential>(course_.u0) > 0.0))
-    return change;
+  const bool both_lock = freedom_ == Freedom::kOneAlone && near_.SurelyHolds() && Length<kTangential>(course_.u0) > 0.0;
+  if (locks && !both_lock) return change;
   const double compression_shift = locks ? LockShift() : CompressionShift();
   const double shift = compression_shift + (locks ? 0.0 : RestitutionShift(compression_shift));
   const double last = course_.total + shift;

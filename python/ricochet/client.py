@@ -507,9 +507,9 @@ class Client:
             The numbers of each column, ``regime``, and ``status``, which says whether a point is ``"OK"`` or
             ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN, and a warning ``InvalidRows`` says
             so; one whose outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there; ``"NOT_CONVERGED"`` is
-            one whose ``accuracy.relative_error`` exceeds the tolerance. A warning ``NoEnd`` says which impacts have no
-            end, or an impact law without a solution. ``attrs`` has the request and the engine, under
-            the names that the files of the command line have.
+            one whose ``accuracy.relative_error`` exceeds the tolerance. A warning ``NoEnd`` counts points whose impact
+            has no end, or whose impact law has no solution. ``attrs`` has the request and the engine, under the names
+            that the files of the command line have.
 
         Raises:
             InvalidRequest: the scene, an axis or a column is wrong.

@@ -105,6 +105,7 @@ struct StepErrors {
     const T lasting = contact.keeps_part * contact.largest_root;
     const T rounding = contact.largest_root * slip_rounding;
     strayed += stray(rounding + lasting * friction);
+    if (InNoLane(T{0} < lasting)) return;
     friction += lasting * contact.mu * stray(rounding);
   }
   // The rounding of slip, in the norm of `friction`.
