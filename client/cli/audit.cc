@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
 #include "client/cli/audit_rows.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/make_solver.h"

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "absl/strings/str_cat.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/fit_data.h"
 #include "client/cli/input/make_solver.h"

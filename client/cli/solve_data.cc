@@ -1,5 +1,6 @@
 #include "client/cli/solve_data.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <iostream>
 #include <limits>
@@ -116,25 +117,20 @@ absl::Status Solve(CsvReader& reader, const Solver& solver, Solved& solved) {
   return absl::OkStatus();
 }
 
-int64_t RowsOf(const BatchSummary& summary, Regime regime) {
-  return summary.counts.by_regime[static_cast<size_t>(regime)].count;
-}
-
 // Counts the rows that --strict makes an error.
 int64_t BadRows(const Solved& solved) {
   int64_t count = 0;
   for (size_t row = 0; row < solved.regimes.size(); ++row) {
-    const Regime regime = solved.regimes[row];
-    const bool has_outcome = regime != Regime::kInvalid && regime != Regime::kNoSolution && regime != Regime::kWedged;
-    count += has_outcome && solved.statuses[row] != RowStatus::kInadmissible ? 0 : 1;
+    count += HasEnd(solved.regimes[row]) && solved.statuses[row] != RowStatus::kInadmissible ? 0 : 1;
   }
   return count;
 }
 
 std::string SummaryText(const Solved& solved) {
   const BatchSummary& summary = solved.response.summary;
-  const int64_t invalid = RowsOf(summary, Regime::kInvalid);
-  const int64_t endless = RowsOf(summary, Regime::kNoSolution) + RowsOf(summary, Regime::kWedged);
+  const int64_t invalid = summary.counts.by_regime[static_cast<size_t>(Regime::kInvalid)].count;
+  const int64_t endless = std::count_if(solved.regimes.begin(), solved.regimes.end(),
+                                        [](Regime regime) { return regime != Regime::kInvalid && !HasEnd(regime); });
   std::string text = absl::StrCat(summary.counts.points, summary.counts.points == 1 ? " row, " : " rows, ", invalid,
                                   " without numbers, ", summary.counts.inadmissible.count, " inadmissible, ", endless,
                                   " without an end or a solution\n");

@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <string>
-#include <utility>
 
 #include "core/answer/derivative_sides.h"
 #include "core/answer/scene_line.h"

@@ -435,9 +435,7 @@ Impulses<kTangential> ImpulseChanges(const Reduction<kTangential>& reduction, Re
   Impulses<kTangential> change = {};
   const double v_error = errors.velocity[kTangential];
   if (outcome.regime == Regime::kSeparating && (v_error == 0.0 || reduction.v0 > v_error)) return change;
-  const bool has_end =
-      outcome.termination == Termination::kConverged || outcome.termination == Termination::kLessAccurate;
-  if (has_end && IsRigid(outcome.plan.model)) {
+  if (HasEnd(outcome.termination) && IsRigid(outcome.plan.model)) {
     return Comparison<kTangential>(reduction, law, errors, freedom, outcome).Bound();
   }
   change.fill(kInfinity);

@@ -7,7 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/answer/model_outcomes.h"
 #include "core/base/decimal.h"
-#include "core/models/laws/impact_laws.h"
+#include "core/models/laws/impact_law.h"
 
 namespace ricochet {
 namespace {

@@ -4,7 +4,6 @@
 #ifndef RICOCHET_CORE_CERTIFIED_ANSWERS_H_
 #define RICOCHET_CORE_CERTIFIED_ANSWERS_H_
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>

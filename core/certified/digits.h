@@ -10,7 +10,6 @@
 #define RICOCHET_CORE_CERTIFIED_DIGITS_H_
 
 #include <optional>
-#include <string>
 
 #include "core/certified/arf_interval.h"
 #include "core/certified/contact_path.h"

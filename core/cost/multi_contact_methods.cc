@@ -1,10 +1,8 @@
 // The methods of several contacts at once: orders, springs and possible.
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"

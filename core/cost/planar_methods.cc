@@ -7,7 +7,7 @@
 #include "core/answer/outcome_parts.h"
 #include "core/cost/methods_by_model.h"
 #include "core/models/compliant/compliant.h"
-#include "core/models/laws/impact_laws.h"
+#include "core/models/laws/impact_law.h"
 
 namespace ricochet {
 namespace {

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -7,10 +7,8 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <variant>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/audit/audit_scene.h"
 #include "core/base/decimal.h"

@@ -10,7 +10,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
-#include "absl/strings/strip.h"
 #include "core/answer/derivative_paths.h"
 #include "core/base/decimal.h"
 #include "core/base/nearest.h"

@@ -17,7 +17,7 @@
 
 namespace ricochet::fit {
 
-// The quantile of chi-squared at kFitConfidence for two degrees of freedom, as kFitRiseOfInterval is for one.
+// The 95 % quantile of chi-squared for two degrees of freedom, as kFitRiseOfInterval is for one.
 inline constexpr double kRiseOfRegion = 5.991464547107979;
 
 // A place on a ray, and the least objective there.

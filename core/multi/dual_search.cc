@@ -1,8 +1,6 @@
 #include "core/multi/dual_search.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 

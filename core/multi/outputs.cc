@@ -1,6 +1,5 @@
 #include "core/multi/outputs.h"
 
-#include <cmath>
 #include <utility>
 
 #include "core/types/multi_contact.h"

@@ -1,9 +1,7 @@
 #include "core/multi/stiffness_curve.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace ricochet::multi {
 namespace {

@@ -14,7 +14,6 @@
 #define RICOCHET_CORE_PLAN_CHOOSE_H_
 
 #include <array>
-#include <cstddef>
 
 #include "core/models/relative_errors.h"
 #include "core/plan/demand.h"

@@ -4,8 +4,6 @@
 #ifndef RICOCHET_CORE_PLAN_PENDULUM_MODELS_H_
 #define RICOCHET_CORE_PLAN_PENDULUM_MODELS_H_
 
-#include <cstddef>
-
 #include "absl/types/span.h"
 #include "core/models/pendulum/columns.h"
 #include "ricochet/plan.h"

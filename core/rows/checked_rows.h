@@ -3,7 +3,6 @@
 #ifndef RICOCHET_CORE_ROWS_CHECKED_ROWS_H_
 #define RICOCHET_CORE_ROWS_CHECKED_ROWS_H_
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "core/scene/field.h"
 
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <utility>

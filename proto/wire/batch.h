@@ -8,7 +8,6 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "absl/types/span.h"
 #include "ricochet/batch.h"
 #include "ricochet/v1/batch.pb.h"
 

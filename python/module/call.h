@@ -24,7 +24,6 @@
 #include <stop_token>
 #include <utility>
 
-#include "absl/status/statusor.h"
 #include "python/module/exceptions.h"
 #include "python/module/lock.h"
 #include "ricochet/solver.h"

@@ -4,7 +4,6 @@
 #include <pybind11/numpy.h>
 
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "absl/strings/ascii.h"

@@ -33,12 +33,15 @@ void Put(const std::vector<Code>& codes, int64_t first, Codes& to) {
 
 // Counts the rows that have no numbers, those that are inadmissible, and those whose impact has no end or no solution.
 py::tuple Counts(const Codes& regimes, const Codes& statuses) {
-  const auto count = [](const Codes& codes, auto code) {
-    return std::count(codes.data(), codes.data() + codes.size(), static_cast<uint8_t>(code));
+  const auto count = [](const Codes& codes, auto is) {
+    return std::count_if(codes.data(), codes.data() + codes.size(), is);
   };
-  return py::make_tuple(count(statuses, RowStatus::kInvalid) + count(statuses, RowStatus::kNotRepresentable),
-                        count(statuses, RowStatus::kInadmissible),
-                        count(regimes, Regime::kWedged) + count(regimes, Regime::kNoSolution));
+  const auto has = [](RowStatus status) { return [=](uint8_t code) { return code == static_cast<uint8_t>(status); }; };
+  return py::make_tuple(count(statuses, has(RowStatus::kInvalid)) + count(statuses, has(RowStatus::kNotRepresentable)),
+                        count(statuses, has(RowStatus::kInadmissible)), count(regimes, [](uint8_t code) {
+                          const auto regime = static_cast<Regime>(code);
+                          return regime != Regime::kInvalid && !HasEnd(regime);
+                        }));
 }
 
 absl::Span<const double> SpanOf(py::handle column) {

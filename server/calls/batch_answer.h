@@ -3,7 +3,6 @@
 #ifndef RICOCHET_SERVER_CALLS_BATCH_ANSWER_H_
 #define RICOCHET_SERVER_CALLS_BATCH_ANSWER_H_
 
-#include <cstddef>
 #include <optional>
 
 #include "absl/status/status.h"

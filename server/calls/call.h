@@ -9,7 +9,6 @@
 #include <grpcpp/support/status.h>
 
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <string>
 

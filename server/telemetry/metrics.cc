@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "absl/algorithm/container.h"
-#include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"

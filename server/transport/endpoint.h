@@ -7,7 +7,6 @@
 #include <grpcpp/server_builder.h>
 #include <sys/types.h>
 
-#include <functional>
 #include <memory>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <sys/types.h>
 
-#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstdio>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "absl/strings/str_format.h"

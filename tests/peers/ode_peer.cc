@@ -3,8 +3,6 @@
 
 #include <ode/ode.h>
 
-#include <cmath>
-
 #include "absl/strings/str_format.h"
 #include "tests/peers/peer.h"
 #include "tests/peers/spring_contact.h"

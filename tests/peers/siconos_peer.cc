@@ -4,7 +4,6 @@
 #include <SolverOptions.h>
 
 #include <SiconosKernel.hpp>
-#include <cmath>
 
 #include "tests/peers/peer.h"
 

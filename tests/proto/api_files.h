@@ -7,7 +7,6 @@
 #include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 
-#include <string>
 #include <vector>
 
 #include "proto/comments/commented_protos.h"

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 
 #include "ricochet/solver.h"
 #include "tests/robots/rods.h"

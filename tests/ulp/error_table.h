@@ -3,9 +3,7 @@
 #ifndef RICOCHET_TESTS_ULP_ERROR_TABLE_H_
 #define RICOCHET_TESTS_ULP_ERROR_TABLE_H_
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>

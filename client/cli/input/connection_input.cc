@@ -6,7 +6,6 @@
 #include <CLI/Config.hpp>
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <iterator>
 #include <utility>
 #include <vector>

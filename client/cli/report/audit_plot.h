@@ -3,7 +3,6 @@
 #ifndef RICOCHET_CLIENT_CLI_REPORT_AUDIT_PLOT_H_
 #define RICOCHET_CLIENT_CLI_REPORT_AUDIT_PLOT_H_
 
-#include <cstdint>
 #include <vector>
 
 #include "absl/status/statusor.h"

@@ -2,11 +2,8 @@
 
 #include <vector>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
-#include "absl/strings/strip.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
 #include "core/base/decimal.h"

@@ -69,10 +69,6 @@ const char* RegimeSentence(Regime regime) {
   return "Unknown: the server answered with a regime that this build does not know.";
 }
 
-bool HasEnd(Termination termination) {
-  return termination != Termination::kBudgetUsedUp && termination != Termination::kRefused;
-}
-
 // `outcome` is an Outcome or a FreeEnd.
 template <typename End>
 std::string Verdict(const End& outcome) {

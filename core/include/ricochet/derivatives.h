@@ -35,7 +35,6 @@ enum class DerivativeKind {
   kOneSided = 2,  // The sides differ, or one of them alone exists.
   kNone = 3,      // No side exists.
 };
-inline constexpr int kDerivativeKindCount = 4;
 
 // A Threshold lies at the number itself, so that its two sides are not alike. The numbers are those of
 // ricochet.v1.Derivative.Threshold.
@@ -52,7 +51,6 @@ enum class Threshold {
   kDomain = 9,          // The number cannot be lower, or cannot be higher.
   kOther = 10,          // The course of the impact changes in another way.
 };
-inline constexpr int kThresholdCount = 11;
 
 // Says where the impact takes another course, so that a derivative holds no longer.
 struct NearThreshold {

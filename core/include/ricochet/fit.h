@@ -21,9 +21,8 @@
 
 namespace ricochet {
 
-// The coverage of the intervals and of the region.
-inline constexpr double kFitConfidence = 0.95;
-// An interval ends where the objective rises by this, the quantile of chi-squared for one degree of freedom.
+// An interval covers 95 %: it ends where the objective rises by this, the quantile of chi-squared for one degree of
+// freedom.
 inline constexpr double kFitRiseOfInterval = 3.841458820694124;
 // The data refuse the physics if a true model would give so large a chi2 with less than this probability.
 inline constexpr double kFitRefusedBelow = 1e-3;
@@ -88,7 +87,6 @@ enum class FitEndKind {
   kUnbounded = 3,   // The data do not end it, however far the search went.
   kNotSeen = 4,     // The data do not end it, and do not tell the unknown by itself.
 };
-inline constexpr int kFitEndKindCount = 5;
 
 struct FitEnd {
   FitEndKind kind = FitEndKind::kUnspecified;

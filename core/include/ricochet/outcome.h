@@ -130,6 +130,11 @@ enum class Termination {
   kLessAccurate = 4,
 };
 
+// True if the impact was followed to its end.
+constexpr bool HasEnd(Termination termination) {
+  return termination == Termination::kConverged || termination == Termination::kLessAccurate;
+}
+
 // The coefficients that the impact was computed with: those of the scene at its approach speed.
 struct EffectiveCoefficients {
   double kinetic_friction = 0.0;

@@ -24,6 +24,11 @@ enum class Regime {
 };
 inline constexpr int kRegimeCount = 14;
 
+// True if the impact was computed and an end of it is known.
+constexpr bool HasEnd(Regime regime) {
+  return regime != Regime::kInvalid && regime != Regime::kWedged && regime != Regime::kNoSolution;
+}
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_REGIME_H_

@@ -13,7 +13,6 @@
 #ifndef RICOCHET_CORE_MODELS_COMPLIANT_COMPLIANT_H_
 #define RICOCHET_CORE_MODELS_COMPLIANT_COMPLIANT_H_
 
-#include <cstdint>
 #include <vector>
 
 #include "core/models/impact_end.h"

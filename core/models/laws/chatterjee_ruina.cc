@@ -1,9 +1,19 @@
-#include "core/models/laws/chatterjee_ruina.h"
+// Chatterjee and Ruina's law: a weighted sum of two plastic impulses, kept inside the friction cone.
+//
+// A. Chatterjee and A. Ruina, J. Appl. Mech. 65 (1998) 939-951. P_I is the frictionless impulse that ends the approach,
+// P_II = -W^-1 (u0, v0) the one that ends approach and slip:
+//
+//   P = (1 + e) P_I + k (P_II - P_I),   k = 1 + e_t, or the smaller k that puts P on the cone |P_t| = mu P_n
+//
+// e_t, from -1 (frictionless) to 1, is a coefficient of tangential restitution: 1 reverses the slip of a sphere. For
+// 0 <= e <= 1 the law creates no energy. At rank one, P_II is the impulse of minimum norm: velocities do not depend on
+// that choice, impulses do. docs/theory/laws.md has the proof and the formulas in coordinates.
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/models/laws/impact_law.h"
 #include "core/models/laws/impact_law_parts.h"
 
 namespace ricochet::laws {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/models/planar_problem.h"
+#include "ricochet/scene.h"
 
 namespace ricochet::laws {
 
@@ -34,6 +35,25 @@ struct ImpactLawResult {
   // Where every mixture of two solutions is one, too: the two ends of that range, or one if it has no other end.
   std::vector<ImpactSolution> ends;
 };
+
+// Each law needs e >= 0. Its source file states its equations.
+
+// There is one solution, or none if wnn - mu sgn(u0) wtn <= 0, because no tau1 > 0 then ends the approach
+// (self-locking).
+ImpactLawResult SolveWhittaker(const PlanarProblem& input, double e);
+
+// Of a range, the solution is the end whose friction does the least work: it opposes the slip.
+ImpactLawResult SolveKaneLevinson(const PlanarProblem& input, double e);
+
+// There is one solution, or none if wnn + mu_hat wtn <= 0.
+ImpactLawResult SolveBrach(const PlanarProblem& input, double e, double mu_hat);
+
+// e_t must be in [-1, 1]. There is exactly one solution, or none if wnn <= 0 or if, at rank one and beside the range of
+// W, friction drives the contact in.
+ImpactLawResult SolveChatterjeeRuina(const PlanarProblem& input, double e, double e_t);
+
+// Solves an impact by the law that is set. It has no solution if none is.
+ImpactLawResult SolveLaw(const ImpactLaw& law, const PlanarProblem& problem);
 
 }  // namespace ricochet::laws
 

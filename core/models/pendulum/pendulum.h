@@ -25,7 +25,6 @@
 #define RICOCHET_CORE_MODELS_PENDULUM_PENDULUM_H_
 
 #include <array>
-#include <cstdint>
 
 #include "core/models/impact_errors.h"
 #include "core/models/restitution_law.h"

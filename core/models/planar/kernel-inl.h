@@ -17,8 +17,6 @@
 #define RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_
 #endif
 
-#include <cmath>
-
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "core/numerics/double_double-inl.h"

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 
 #include "core/models/impact_end.h"
 #include "core/models/impact_errors.h"

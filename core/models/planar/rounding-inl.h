@@ -14,8 +14,6 @@
 #define RICOCHET_CORE_MODELS_PLANAR_ROUNDING_INL_H_
 #endif
 
-#include <cmath>
-
 #include "core/models/impact_errors.h"
 #include "core/models/planar/kernel-inl.h"
 #include "core/models/planar/planar.h"

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "core/models/restitution_law.h"
 #include "core/models/spatial/matrix-inl.h"

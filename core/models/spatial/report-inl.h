@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/models/impact_errors.h"
 #include "core/models/restitution_law.h"

@@ -8,8 +8,6 @@
 #define RICOCHET_CORE_MODELS_SPATIAL_STEP_INL_H_
 #endif
 
-#include <cmath>
-
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
 #include "core/models/spatial/problem-inl.h"

@@ -4,7 +4,6 @@
 #define RICOCHET_TESTS_CLIENT_CLI_MADE_COST_H_
 
 #include <cmath>
-#include <cstdint>
 #include <string>
 #include <utility>
 

@@ -3,10 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <limits>
-#include <string>
 
 #include "ricochet/error.h"
 #include "tests/core/fit/fit_cases.h"

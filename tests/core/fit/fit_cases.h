@@ -3,8 +3,6 @@
 #ifndef RICOCHET_TESTS_CORE_FIT_FIT_CASES_H_
 #define RICOCHET_TESTS_CORE_FIT_FIT_CASES_H_
 
-#include <cstddef>
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>

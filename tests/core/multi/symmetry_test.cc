@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <numeric>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "ricochet/solver.h"

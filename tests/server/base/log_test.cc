@@ -6,7 +6,6 @@
 #include <grpc/support/log.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>

@@ -1,7 +1,6 @@
 #include "tests/support/oracles/multi_contact_oracle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 

@@ -9,7 +9,6 @@
 #define RICOCHET_TESTS_SUPPORT_ORACLES_PLANAR_ORACLE_H_
 
 #include <array>
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>

@@ -4,7 +4,6 @@
 #define RICOCHET_TESTS_SUPPORT_SCENES_MULTI_CONTACT_SCENES_H_
 
 #include <cstddef>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -3,8 +3,6 @@
 #ifndef RICOCHET_TESTS_SUPPORT_SCENES_PLAN_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_SCENES_PLAN_SCENES_H_
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 

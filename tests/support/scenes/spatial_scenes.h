@@ -3,7 +3,6 @@
 #ifndef RICOCHET_TESTS_SUPPORT_SCENES_SPATIAL_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_SCENES_SPATIAL_SCENES_H_
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>

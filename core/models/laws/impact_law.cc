@@ -1,4 +1,4 @@
-#include "core/models/laws/impact_laws.h"
+#include "core/models/laws/impact_law.h"
 
 #include <variant>
 

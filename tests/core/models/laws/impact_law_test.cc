@@ -1,6 +1,6 @@
 // The impact laws: cases worked by hand, cases that create energy, cases with no or several solutions, and random ones.
 
-#include "core/models/laws/impact_laws.h"
+#include "core/models/laws/impact_law.h"
 
 #include <gtest/gtest.h>
 
