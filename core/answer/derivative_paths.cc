@@ -15,8 +15,6 @@
 namespace ricochet {
 namespace {
 
-// The paths of the velocities of the system itself after the impact; in a plane in the order of
-// PlanarReduction::before.
 struct VelocityPaths {
   std::vector<std::string>& paths;
   size_t tangential;  // Directions.
@@ -51,7 +49,8 @@ std::vector<std::string> OutputPaths(const Scene& scene) {
     if (tangential == 2 && absl::EndsWith(path, "[0]"))
       paths.push_back(absl::StrCat(absl::StripSuffix(path, "0]"), "1]"));
   }
-  std::visit(VelocityPaths{paths, tangential}, scene.system);
+  const std::vector<std::string> velocities = SystemVelocityPaths(scene);
+  paths.insert(paths.end(), velocities.begin(), velocities.end());
   if (TakesTime(scene)) {
     for (const char* number : {"duration_s", "peak_normal_n", "peak_tangential_n", "indentation_m"}) {
       paths.push_back(absl::StrCat("contact.", number));
@@ -81,6 +80,12 @@ void CheckPaths(const char* list, const std::vector<std::string>& paths, const s
     violations.push_back(MakeViolation(absl::StrCat("derivatives.", list, "[", i, "]"), Found(paths[i]),
                                        absl::StrCat("be ", what, DidYouMean(paths[i], known))));
   }
+}
+
+std::vector<std::string> SystemVelocityPaths(const Scene& scene) {
+  std::vector<std::string> paths;
+  std::visit(VelocityPaths{paths, TangentialDirections(scene.system)}, scene.system);
+  return paths;
 }
 
 DerivativePaths AllDerivativePaths(const Scene& scene) {

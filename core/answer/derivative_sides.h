@@ -3,6 +3,8 @@
 #ifndef RICOCHET_CORE_ANSWER_DERIVATIVE_SIDES_H_
 #define RICOCHET_CORE_ANSWER_DERIVATIVE_SIDES_H_
 
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -27,6 +29,16 @@ inline absl::string_view HeadOf(absl::string_view path) { return path.substr(0, 
 // Returns the size to which the rounding of the outcome's number at `path` is relative, for a contact that moves at
 // `speed` before the impact and takes the normal impulse `impulse`; 0 for a number of another kind.
 double ScaleOf(std::string_view path, double speed, double impulse);
+
+// Returns the same for the velocity of the system at `place` of Reduction::before.
+template <typename Reduction>
+double VelocityScaleOf(const Reduction& reduction, size_t place, double impulse) {
+  double response = 0.0;
+  for (size_t i = 0; i < Reduction::kDirections; ++i) {
+    response += std::fabs(reduction.response[place * Reduction::kDirections + i]);
+  }
+  return std::fabs(reduction.before[place]) + impulse * response;
+}
 
 }  // namespace ricochet
 

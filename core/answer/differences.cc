@@ -194,10 +194,13 @@ class Sides {
     if (!beside_[side].has_value()) return {.why_none = "the scene would break a rule"};
     const double here = source_.here().value[i], beside = beside_[side]->value[i];
     if (std::isnan(here) || std::isnan(beside)) return {.why_none = "there is no such number"};
-    if (std::fabs(beside - here) > kJump * std::max(std::fabs(beside), source_.scale(i))) {
+    const double rate = one_sided_[side][i].rate, error = one_sided_[side][i].error;
+    const double change = std::fabs(beside - here);
+    // A number that is 0 here may change by more than its size, at the rate of its neighbours.
+    const bool goes_on = change <= 2.0 * (std::fabs(rate) + error) * kBeside * line_.unit() && std::isfinite(error);
+    if (change > kJump * std::max(std::fabs(beside), source_.scale(i)) && !goes_on) {
       return {.why_none = "the number jumps"};
     }
-    const double rate = one_sided_[side][i].rate, error = one_sided_[side][i].error;
     constexpr double kVague = 0.1;
     constexpr double kNegligible = 1e-6;
     const double negligible = kNegligible * source_.scale(i) / line_.unit();

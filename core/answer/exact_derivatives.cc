@@ -176,9 +176,7 @@ double ExactDerivatives::RateOf(const Side& side, size_t place) const {
 double ExactDerivatives::SizeOf(size_t place) const {
   const double impulse = values_here_[PlaceOf(PlanarOutput::kNormalImpulse)];
   if (place < kOutputs) return ScaleOf(kPlanarOutputPaths[place], speed_here_, impulse);
-  const auto& reduction = std::get<PlanarReduction>(here_->reduction);
-  const double* const x = &reduction.response[2 * (place - kOutputs)];
-  return std::fabs(reduction.before[place - kOutputs]) + impulse * (std::fabs(x[0]) + std::fabs(x[1]));
+  return VelocityScaleOf(std::get<PlanarReduction>(here_->reduction), place - kOutputs, impulse);
 }
 
 OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {

@@ -11,6 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
+#include "core/answer/derivative_paths.h"
 #include "core/answer/derivative_sides.h"
 #include "core/answer/differences.h"
 #include "core/answer/scene_outcome.h"
@@ -63,13 +64,21 @@ class OutcomeSource final : public SampleSource {
     if (!solved.ok()) return solved;
     FindPlaces(outcome, of);
     if (!contact.has_value()) contact.emplace(scene);
-    const double speed = std::visit([](const auto& reduction) { return SpeedOf(reduction); }, contact->reduction);
     const std::vector<double> numbers = NumbersOf(outcome);
+    const std::vector<std::string> velocities = SystemVelocityPaths(scene);
     for (size_t i = 0; i < of.size(); ++i) {
       const double value = At(places_[i], numbers);
+      const auto velocity =
+          static_cast<size_t>(std::find(velocities.begin(), velocities.end(), of[i]) - velocities.begin());
+      const double scale = std::visit(
+          [&](const auto& reduction) {
+            const double impulse = outcome.impulse.normal_total_n_s;
+            return velocity < velocities.size() ? VelocityScaleOf(reduction, velocity, impulse)
+                                                : ScaleOf(of[i], SpeedOf(reduction), impulse);
+          },
+          contact->reduction);
       scales_.push_back(
-          std::max({std::isnan(value) ? 0.0 : std::fabs(value), ScaleOf(of[i], speed, outcome.impulse.normal_total_n_s),
-                    std::numeric_limits<double>::min()}));
+          std::max({std::isnan(value) ? 0.0 : std::fabs(value), scale, std::numeric_limits<double>::min()}));
     }
     here_ = SampleOf(scene, outcome);
     return absl::OkStatus();

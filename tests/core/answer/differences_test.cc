@@ -217,6 +217,41 @@ TEST(DifferencesTest, SphereThatSlidesIsItsFormula) {
   EXPECT_NEAR(*across.value, -0.2 * 1.8 / 4.0, 1e-11);
 }
 
+// The scale of a velocity that is 0 is that of the terms that make it.
+TEST(DifferencesTest, VelocityThatIsZeroDoesNotJump) {
+  // A sphere that slides along x: v_y' = v_y - mu (1 + e) |v_z| v_y/|v|. Nothing turns it about z.
+  const Scene sphere = {.system = SpatialBody{.mass_kg = 2.0,
+                                              .inertia_com_kg_m2 = {0.2, 0.0, 0.0, 0.2, 0.0, 0.2},
+                                              .com_to_contact_m = {0.0, 0.0, -0.5},
+                                              .linear_m_s = {4.0, 0.0, -2.0}},
+                        .friction = {.kinetic_coefficient = 0.1},
+                        .restitution = EnergeticCoefficient{0.5}};
+  const Derivative across = Only(sphere, "bodies_after[0].linear_m_s[1]", "spatial_body.linear_m_s[1]");
+  EXPECT_EQ(across.kind, DerivativeKind::kTwoSided);
+  EXPECT_NEAR(*across.value, 1.0 - 0.1 * 1.5 * 2.0 / 4.0, 1e-11);
+  const Derivative spin = Only(sphere, "bodies_after[0].angular_rad_s[2]", "spatial_body.angular_rad_s[2]");
+  EXPECT_EQ(spin.kind, DerivativeKind::kTwoSided);
+  EXPECT_NEAR(*spin.value, 1.0, 1e-11);
+  // tau = (1 + e) |v0|/W33 below v0 = 0, and nothing strikes above.
+  Scene grazing = BallOnCushion();
+  std::get<SpatialContact>(grazing.system).normal_m_s = 0.0;
+  const Derivative impulse = Only(grazing, kTau, "spatial_contact.normal_m_s");
+  EXPECT_EQ(impulse.threshold, Threshold::kApproach);
+  EXPECT_NEAR(*impulse.from_below, -1.8, 1e-11);
+  EXPECT_EQ(impulse.from_above, 0.0);
+}
+
+TEST(DifferencesTest, RateOfAPlasticPendulumOnATangentialSpringFollowsItsContact) {
+  const Scene scene = {.system = Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.5, .b_m = 0.3, .omega_minus_rad_s = -1.0},
+                       .friction = {.kinetic_coefficient = 0.1},
+                       .restitution = EnergeticCoefficient{0.0},
+                       .compliance = Compliance{.tangential_ratio_squared = 1.2}};
+  const Derivative normal = Only(scene, "contact_velocity_after.normal_m_s", "restitution.energetic");
+  const Derivative rate = Only(scene, "rates_after_rad_s[0]", "restitution.energetic");
+  ASSERT_TRUE(normal.from_above.has_value() && rate.from_above.has_value()) << normal.reason << rate.reason;
+  EXPECT_NEAR(std::fabs(*rate.from_above) * 0.5, std::fabs(*normal.from_above), 1e-9);
+}
+
 TEST(DifferencesTest, SphereThatSticksDoesNotFeelFriction) {
   const Derivative by_mu = Only(BallOnCushion(), "contact_velocity_after.tangential_m_s[1]", kMu);
   EXPECT_EQ(by_mu.kind, DerivativeKind::kTwoSided);
