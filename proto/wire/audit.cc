@@ -17,24 +17,15 @@ struct Map<LimitCheck> : Between<LimitCheck, v1::LimitCheck> {
                                           RICOCHET_FIELD(allowance), RICOCHET_FIELD(verdict));
 };
 
-// A check stands in an array under the number of its limit, and in a message under its name.
-template <AuditLimit kLimit>
-struct CheckField {
-  const v1::LimitCheck& (v1::AuditLimits::*get)() const;
-  v1::LimitCheck* (v1::AuditLimits::*edit)();
+// A check, and the tallies of a limit below, stand in arrays under the number of the limit, and in a message under its
+// name.
+constexpr size_t IndexOf(AuditLimit limit) { return static_cast<size_t>(limit); }
 
-  void Write(const AuditReport& report, v1::AuditLimits& proto) const { ToProto(report[kLimit], *(proto.*edit)()); }
-  void Read(const v1::AuditLimits& proto, AuditReport& report) const {
-    FromProto((proto.*get)(), report.limits[static_cast<size_t>(kLimit)]);
-  }
-};
-
-constexpr auto kLimitEntries = Entries(
-    CheckField<AuditLimit::kSharp>{&v1::AuditLimits::sharp, &v1::AuditLimits::mutable_sharp},
-    CheckField<AuditLimit::kEnergy>{&v1::AuditLimits::energy, &v1::AuditLimits::mutable_energy},
-    CheckField<AuditLimit::kNormalImpulse>{&v1::AuditLimits::normal_impulse, &v1::AuditLimits::mutable_normal_impulse},
-    CheckField<AuditLimit::kPenetration>{&v1::AuditLimits::penetration, &v1::AuditLimits::mutable_penetration},
-    CheckField<AuditLimit::kCone>{&v1::AuditLimits::cone, &v1::AuditLimits::mutable_cone});
+constexpr auto kLimitEntries = Entries(RICOCHET_FIELD_AS(limits[IndexOf(AuditLimit::kSharp)], sharp),
+                                       RICOCHET_FIELD_AS(limits[IndexOf(AuditLimit::kEnergy)], energy),
+                                       RICOCHET_FIELD_AS(limits[IndexOf(AuditLimit::kNormalImpulse)], normal_impulse),
+                                       RICOCHET_FIELD_AS(limits[IndexOf(AuditLimit::kPenetration)], penetration),
+                                       RICOCHET_FIELD_AS(limits[IndexOf(AuditLimit::kCone)], cone));
 
 template <>
 struct Map<AuditReport> : Between<AuditReport, v1::AuditReport> {
@@ -59,38 +50,21 @@ struct Map<AuditReport> : Between<AuditReport, v1::AuditReport> {
       Nested(RICOCHET_ACCESS(limits), kLimitEntries));
 };
 
-// Pairs the tallies of a limit in the same way.
-template <AuditLimit kLimit>
-struct TallyField {
-  const v1::LimitTally& (v1::AuditSummary::*get)() const;
-  v1::LimitTally* (v1::AuditSummary::*edit)();
-
-  static constexpr auto kIndex = static_cast<size_t>(kLimit);
-
-  void Write(const AuditSummary& summary, v1::AuditSummary& proto) const {
-    v1::LimitTally& tally = *(proto.*edit)();
-    ToProto(summary.broken[kIndex], *tally.mutable_broken());
-    ToProto(summary.within_uncertainty[kIndex], *tally.mutable_within_uncertainty());
-    tally.set_largest_excess(summary.largest_excess[kIndex]);
-  }
-  void Read(const v1::AuditSummary& proto, AuditSummary& summary) const {
-    const v1::LimitTally& tally = (proto.*get)();
-    if (tally.has_broken()) FromProto(tally.broken(), summary.broken[kIndex]);
-    if (tally.has_within_uncertainty()) FromProto(tally.within_uncertainty(), summary.within_uncertainty[kIndex]);
-    summary.largest_excess[kIndex] = tally.largest_excess();
-  }
-};
-
 // An absent tally has no rows, and its first index is then -1 and not 0.
+template <AuditLimit kLimit>
+constexpr auto kTallies = Entries(Defaulted(RICOCHET_FIELD_AS(broken[IndexOf(kLimit)], broken)),
+                                  Defaulted(RICOCHET_FIELD_AS(within_uncertainty[IndexOf(kLimit)], within_uncertainty)),
+                                  RICOCHET_FIELD_AS(largest_excess[IndexOf(kLimit)], largest_excess));
+
 template <>
 struct Map<AuditSummary> : Between<AuditSummary, v1::AuditSummary> {
   static constexpr auto kFields =
       Entries(RICOCHET_FIELD(rows), RICOCHET_FIELD(admissible), Defaulted(RICOCHET_FIELD(invalid)),
-              Defaulted(RICOCHET_FIELD(unexplained)), TallyField<AuditLimit::kSharp>{&P::sharp, &P::mutable_sharp},
-              TallyField<AuditLimit::kEnergy>{&P::energy, &P::mutable_energy},
-              TallyField<AuditLimit::kNormalImpulse>{&P::normal_impulse, &P::mutable_normal_impulse},
-              TallyField<AuditLimit::kPenetration>{&P::penetration, &P::mutable_penetration},
-              TallyField<AuditLimit::kCone>{&P::cone, &P::mutable_cone});
+              Defaulted(RICOCHET_FIELD(unexplained)), Nested(RICOCHET_ACCESS(sharp), kTallies<AuditLimit::kSharp>),
+              Nested(RICOCHET_ACCESS(energy), kTallies<AuditLimit::kEnergy>),
+              Nested(RICOCHET_ACCESS(normal_impulse), kTallies<AuditLimit::kNormalImpulse>),
+              Nested(RICOCHET_ACCESS(penetration), kTallies<AuditLimit::kPenetration>),
+              Nested(RICOCHET_ACCESS(cone), kTallies<AuditLimit::kCone>));
 };
 
 // A column of rates is a message of its own, as a list of lists needs one.
