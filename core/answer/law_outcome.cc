@@ -98,8 +98,10 @@ absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, 
     outcome.coefficients.newton = 0.0 - solution.v1 / reduction.v0;
     outcome.coefficients.tangential = solution.tau1 == 0.0 ? 0.0 : solution.f / solution.tau1;
     const double before = std::max(std::abs(reduction.u0[0]), std::abs(reduction.v0));
+    const double after = std::max(std::abs(solution.v1), std::abs(solution.u1));
     const double error = kError * std::max(1.0, CoupledSlip(law, problem) / before);
-    outcome.accuracy.relative_error = RelativeToBefore<1>(error, reduction, {solution.u1}, solution.v1);
+    // The error is relative to the largest of all velocities, the stated one to the velocity before the impact.
+    outcome.accuracy.relative_error = error * std::max(1.0, after / before);
   }
   outcome.accuracy.kind = AccuracyKind::kEstimate;
   outcome.w_rank = problem.w.Rank();

@@ -4,9 +4,7 @@
 #ifndef RICOCHET_CORE_ANSWER_OUTCOME_PARTS_H_
 #define RICOCHET_CORE_ANSWER_OUTCOME_PARTS_H_
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -60,20 +58,6 @@ void CompareWithTolerance(double tolerance, Outcome& outcome);
 
 // Unsets the numbers of the two phases and their errors, of which an impact law knows nothing.
 void UnsetPhases(Outcome& outcome);
-
-// Converts `error`, which is relative to the largest of all velocities, to one relative to the velocity before the
-// impact.
-template <size_t kTangential>
-double RelativeToBefore(double error, const Reduction<kTangential>& reduction,
-                        const std::array<double, kTangential>& u1, double v1) {
-  double before = std::abs(reduction.v0);
-  double after = std::abs(v1);
-  for (size_t i = 0; i < kTangential; ++i) {
-    before = std::max(before, std::abs(reduction.u0[i]));
-    after = std::max(after, std::abs(u1[i]));
-  }
-  return error * std::max(1.0, after / before);
-}
 
 // Gives OUT_OF_RANGE that names the first number of the outcome, or of a state of its timeline, that is not finite. An
 // error is not checked: it is infinite where nothing is known (MayBeInfinite).
