@@ -40,10 +40,15 @@ struct Context {
     return simulates.Contains(demand.required) && (simulates & fixed).IsEmpty();
   }
 
+  // True if friction is left out of a model that simulates these effects.
+  bool IsSmooth(EffectSet simulates) const {
+    return !simulates.Has(Effect::kFriction) || excluded.Has(Effect::kFriction);
+  }
+
   // Sum of the sizes of the effects that a model leaves out and the caller does not exclude. It stops above the
   // tolerance.
   double Neglected(EffectSet simulates) const {
-    const bool smooth = !simulates.Has(Effect::kFriction) || excluded.Has(Effect::kFriction);
+    const bool smooth = IsSmooth(simulates);
     EffectSet counted = simulates | excluded;
     if (smooth) counted = counted | kOnFriction;
     double sum = 0.0;
@@ -58,6 +63,13 @@ struct Context {
   double SizeOf(Effect effect, bool smooth) const {
     const bool beyond = smooth && effect == Effect::kFiniteForces && !excluded.Has(Effect::kFriction);
     return beyond ? sizes.forces_beyond_friction : sizes[effect].value;
+  }
+
+  Decision DecisionOn(Effect effect, const Size& size, EffectSet simulates) const {
+    if (demand.required.Has(effect)) return Decision::kRequired;
+    if (size.IsAbsent()) return Decision::kAbsent;
+    if (excluded.Has(effect)) return Decision::kExcluded;
+    return simulates.Has(effect) ? Decision::kSimulated : Decision::kNegligible;
   }
 };
 
@@ -77,28 +89,14 @@ const Candidate* Cheapest(const Context& context, const Candidates& candidates) 
   return fallback;
 }
 
-struct Requested {
-  EffectSet required;
-  EffectSet excluded;
-};
-
-Decision DecisionOn(Effect effect, const Size& size, Requested requested, EffectSet simulates) {
-  if (requested.required.Has(effect)) return Decision::kRequired;
-  if (size.IsAbsent()) return Decision::kAbsent;
-  if (requested.excluded.Has(effect)) return Decision::kExcluded;
-  return simulates.Has(effect) ? Decision::kSimulated : Decision::kNegligible;
-}
-
 // Sets the decisions and what follows from them. The sizes are still those without the excluded effects.
 void Decide(const Context& context, const Candidate& candidate, const Sizes& of_all, Choice& choice) {
   choice.model = candidate.model;
-  const Requested requested = {.required = context.demand.required, .excluded = context.excluded};
-  const EffectSet simulates = candidate.simulates;
-  const bool smooth = !simulates.Has(Effect::kFriction) || requested.excluded.Has(Effect::kFriction);
+  const bool smooth = context.IsSmooth(candidate.simulates);
   for (const Effect effect : kEffects) {
     Size& size = choice.sizes[effect];
-    if (requested.excluded.Has(effect)) size = of_all[effect];
-    const Decision decision = DecisionOn(effect, size, requested, simulates);
+    if (context.excluded.Has(effect)) size = of_all[effect];
+    const Decision decision = context.DecisionOn(effect, size, candidate.simulates);
     choice.decisions[static_cast<size_t>(effect)] = decision;
     if (decision != Decision::kNegligible && decision != Decision::kExcluded) continue;
     choice.left_out.Add(effect);
@@ -116,6 +114,11 @@ Choice ChooseAmong(const Sizes& sizes, const Sizes& of_all, const Demand& demand
   const Context context = {.sizes = sizes, .demand = demand, .excluded = excluded};
   const Candidate* candidate = Cheapest(context, candidates);
   if (candidate != nullptr) Decide(context, *candidate, of_all, choice);
+  const double left = demand.relative_tolerance - choice.negligible;  // For the model's own error.
+  if (choice.model == Model::kFiniteDuration) choice.model_tolerance = std::clamp(left, 1e-12, 1e-1);
+  if (choice.model == Model::kSpatial) {
+    choice.model_tolerance = std::clamp(left, spatial::kLeastTolerance, spatial::kMostTolerance);
+  }
   return choice;
 }
 
@@ -124,11 +127,6 @@ Choice Separating() {
   choice.model = Model::kNone;
   choice.decisions.fill(Decision::kAbsent);
   return choice;
-}
-
-// The part of the tolerance that is left for the model's own error, in [least, most].
-double RemainingTolerance(const Choice& choice, const Demand& demand, double least, double most) {
-  return std::clamp(demand.relative_tolerance - choice.negligible, least, most);
 }
 
 bool HasForces(const ContactPhysics& physics) {
@@ -198,15 +196,6 @@ double ErrorBeyondRigid(Model model, const ContactPhysics& physics) {
   return applies ? 0.0 : kUnbounded;
 }
 
-Choice ChoosePlanarModel(const Sizes& sizes, const Sizes& of_all, const Demand& demand, EffectSet excluded,
-                         const Candidates& candidates) {
-  Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);
-  if (choice.model == Model::kFiniteDuration) {
-    choice.model_tolerance = RemainingTolerance(choice, demand, 1e-12, 1e-1);
-  }
-  return choice;
-}
-
 // The choice for a contact that does not approach but that finite forces may press together: only the model of finite
 // duration can compute it.
 Choice ForcedContact() {
@@ -241,7 +230,7 @@ Choice ChooseApproaching(const planar::Problem& problem, const ContactPhysics& p
     return ErrorBeyondRigid(model, physics);
   };
   const auto choose = [&](const Sizes& sizes) {
-    return ChoosePlanarModel(sizes, of_all, demand, excluded, {kPlanarCandidates, error});
+    return ChooseAmong(sizes, of_all, demand, excluded, {kPlanarCandidates, error});
   };
   Choice choice = excluded.IsEmpty()
                       ? choose(of_all)
@@ -286,7 +275,7 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
     const bool is_smooth = sizes[Effect::kFriction].value == 0.0;
     const absl::Span<const Candidate> models =
         is_smooth ? absl::MakeConstSpan(kSmoothPendulumCandidates) : absl::MakeConstSpan(kPendulumCandidates);
-    return ChoosePlanarModel(sizes, of_all, demand, excluded, {models, error});
+    return ChooseAmong(sizes, of_all, demand, excluded, {models, error});
   };
   return excluded.IsEmpty() ? choose(of_all) : choose(PendulumSizes(kept, kept_physics));
 }
@@ -305,8 +294,6 @@ Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
   };
   Choice choice = ChooseAmong(sizes, of_all, demand, excluded, {kSpatialCandidates, error});
   errors.KeepThoseOf(choice);
-  if (choice.model == Model::kSpatial)
-    choice.model_tolerance = RemainingTolerance(choice, demand, spatial::kLeastTolerance, spatial::kMostTolerance);
   return choice;
 }
 
