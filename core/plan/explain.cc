@@ -13,12 +13,16 @@ std::string Digits(double value) { return absl::StrFormat("%.3g", value); }
 
 std::string Percent(double share) { return absl::StrCat(Digits(100.0 * share), " %"); }
 
-// A set of sizes belongs to a contact of one of these kinds.
+Basis BasisOf(Effect effect, const PlannedEffects::Facts& facts) {
+  return static_cast<Basis>(facts[static_cast<size_t>(effect)].basis);
+}
+
+// The facts belong to a contact of one of these kinds.
 enum class ContactKind { kPlanar, kPendulum, kSpatial };
 
-ContactKind KindOf(const Sizes& sizes) {
-  if (sizes[Effect::kHigherOrder].basis != Basis::kNotOfSystem) return ContactKind::kPendulum;
-  return sizes[Effect::kSlipTurn].basis != Basis::kNotOfSystem ? ContactKind::kSpatial : ContactKind::kPlanar;
+ContactKind KindOf(const PlannedEffects::Facts& facts) {
+  if (BasisOf(Effect::kHigherOrder, facts) != Basis::kNotOfSystem) return ContactKind::kPendulum;
+  return BasisOf(Effect::kSlipTurn, facts) != Basis::kNotOfSystem ? ContactKind::kSpatial : ContactKind::kPlanar;
 }
 
 std::string NotInScene(Effect effect, ContactKind kind) {
@@ -136,26 +140,12 @@ std::string Separates(Effect /*effect*/, const PlannedEffects::Facts& /*facts*/)
   return "the contact separates: nothing changes";
 }
 
-template <ContactKind kKind>
 std::string ForContact(Effect effect, const PlannedEffects::Facts& facts) {
   const PlannedEffects::Fact& fact = facts[static_cast<size_t>(effect)];
   if (kOnFriction.Has(effect) && IsLeftOut(fact) && IsLeftOut(facts[static_cast<size_t>(Effect::kFriction)])) {
     return "included in the change by friction";
   }
-  return ReasonOf(effect, {.value = fact.size, .basis = static_cast<Basis>(fact.basis), .number = fact.number}, kKind);
-}
-
-PlannedEffects::Author AuthorFor(const Choice& choice) {
-  if (choice.model == Model::kNone) return Separates;
-  switch (KindOf(choice.sizes)) {
-    case ContactKind::kPlanar:
-      return ForContact<ContactKind::kPlanar>;
-    case ContactKind::kPendulum:
-      return ForContact<ContactKind::kPendulum>;
-    case ContactKind::kSpatial:
-      return ForContact<ContactKind::kSpatial>;
-  }
-  return nullptr;
+  return ReasonOf(effect, {.value = fact.size, .basis = BasisOf(effect, facts), .number = fact.number}, KindOf(facts));
 }
 
 }  // namespace
@@ -164,7 +154,7 @@ void Explain(const Choice& choice, const Demand& demand, Plan& plan) {
   plan.model = choice.model;
   plan.relative_tolerance = demand.relative_tolerance;
   plan.neglected = choice.neglected;
-  plan.effects.SetAuthor(AuthorFor(choice));
+  plan.effects.SetAuthor(choice.model == Model::kNone ? Separates : ForContact);
   for (const Effect effect : kEffects) {
     const Size& size = choice.sizes[effect];
     plan.effects[effect] = {.size = size.value,
