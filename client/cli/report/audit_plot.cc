@@ -68,10 +68,17 @@ void AddCone(const std::vector<AuditReport>& reports, Panel& panel) {
                           .style = "with lines linewidth 1.5 dashtype 2 linecolor rgb '#606060'"});
 }
 
-void MarkInvalidRows(const std::vector<AuditReport>& reports, Panel& panel) {
+// The panel of one number over the rows, with its limit.
+Panel RowPanel(const std::vector<AuditReport>& reports, const char* title, const char* y_label, double limit,
+               double AuditReport::*number) {
+  Panel panel{.title = title, .x_label = "row", .y_label = y_label, .whole_x = true, .y_marks = {limit}};
+  panel.curves = CurvesOf(reports, [number](size_t row, const AuditReport& report) {
+    return std::pair(static_cast<double>(row), report.*number);
+  });
   for (size_t row = 0; row < reports.size(); ++row) {
     if (reports[row].regime == Regime::kInvalid) panel.x_missing.push_back(static_cast<double>(row));
   }
+  return panel;
 }
 
 }  // namespace
@@ -91,24 +98,11 @@ absl::StatusOr<Plot> AuditPlot::Make() const {
       reports_, [](size_t, const AuditReport& r) { return std::pair(r.normal_impulse, TangentialImpulse(r)); });
   if (impulse.curves.empty()) return absl::FailedPreconditionError("no row has numbers to draw");
   AddCone(reports_, impulse);
-  Panel sharp{.title = "Energetic coefficient",
-              .x_label = "row",
-              .y_label = "energetic coefficient",
-              .whole_x = true,
-              .y_marks = {1.0}};
-  sharp.curves = CurvesOf(
-      reports_, [](size_t row, const AuditReport& r) { return std::pair(static_cast<double>(row), r.energetic); });
-  Panel energy{.title = "Change of kinetic energy",
-               .x_label = "row",
-               .y_label = "E+ - E- [J]",
-               .whole_x = true,
-               .y_marks = {0.0}};
-  energy.curves = CurvesOf(
-      reports_, [](size_t row, const AuditReport& r) { return std::pair(static_cast<double>(row), r.energy_change); });
-  MarkInvalidRows(reports_, sharp);
-  MarkInvalidRows(reports_, energy);
-  return Plot{.title = "Audited impacts (dashed: the limits)",
-              .panels = {std::move(impulse), std::move(sharp), std::move(energy)}};
+  return Plot{
+      .title = "Audited impacts (dashed: the limits)",
+      .panels = {std::move(impulse),
+                 RowPanel(reports_, "Energetic coefficient", "energetic coefficient", 1.0, &AuditReport::energetic),
+                 RowPanel(reports_, "Change of kinetic energy", "E+ - E- [J]", 0.0, &AuditReport::energy_change)}};
 }
 
 }  // namespace ricochet::cli
