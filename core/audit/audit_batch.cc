@@ -21,28 +21,22 @@
 namespace ricochet {
 namespace {
 
-// Presence says whether a request must, may or must not have a column.
-enum class Presence { kRequired, kOptional, kRefused };
-
+// Says of a column whether a request must have it, or where it must not.
 struct ColumnRule {
   std::string name;
   const std::vector<double>& values;
-  Presence presence;
-  const char* refused_for = "";
+  bool is_required = false;
+  const char* refused_for = nullptr;  // Null if it may have the column.
 };
 
 ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool is_planar) {
-  ColumnRule rule = {absl::StrCat("columns.", column.name), in.*column.values, Presence::kOptional};
+  ColumnRule rule = {absl::StrCat("columns.", column.name), in.*column.values};
+  const bool has_rates = !in.rates_after_rad_s.empty();
   if (column.is_spatial && is_planar) {
-    rule.presence = Presence::kRefused;
     rule.refused_for = "for a planar system";
-  } else if (column.part != AuditColumnPart::kAfter) {
-    return rule;
-  } else if (in.rates_after_rad_s.empty()) {
-    rule.presence = Presence::kRequired;
-  } else {
-    rule.presence = Presence::kRefused;
-    rule.refused_for = "beside rates_after";
+  } else if (column.part == AuditColumnPart::kAfter) {
+    rule.is_required = !has_rates;
+    if (has_rates) rule.refused_for = "beside rates_after";
   }
   return rule;
 }
@@ -51,8 +45,9 @@ std::vector<ColumnRule> Rules(const AuditColumns& in, size_t directions) {
   std::vector<ColumnRule> rules;
   for (const NamedAuditColumn& column : kAuditColumns) rules.push_back(RuleOf(column, in, directions == 1));
   for (size_t i = 0; i < in.rates_after_rad_s.size(); ++i) {
-    rules.push_back(
-        {absl::StrCat("columns.rates_after[", i, "].rates_rad_s"), in.rates_after_rad_s[i], Presence::kRequired});
+    rules.push_back({.name = absl::StrCat("columns.rates_after[", i, "].rates_rad_s"),
+                     .values = in.rates_after_rad_s[i],
+                     .is_required = true});
   }
   return rules;
 }
@@ -84,11 +79,11 @@ std::vector<Violation> CheckColumns(const std::vector<ColumnRule>& rules, size_t
   for (const ColumnRule& rule : rules) {
     if (IsFull(violations)) break;
     const size_t length = rule.values.size();
-    if (rule.presence == Presence::kRefused) {
+    if (rule.refused_for != nullptr) {
       if (length > 0)
         violations.push_back(MakeViolation(rule.name, "is set", absl::StrCat("not be ", rule.refused_for)));
     } else if (length == 0) {
-      if (rule.presence == Presence::kRequired) {
+      if (rule.is_required) {
         violations.push_back(MakeViolation(rule.name, "is not set", "have a value a row, or one for all"));
       }
     } else if (length != 1 && length != rows) {
