@@ -18,40 +18,33 @@ std::string Against(Effect effect, const Violation& violation) {
 
 }  // namespace
 
-EffectSet EffectsBehind(absl::string_view path) {
-  if (absl::StartsWith(path, "contact.")) return {Effect::kFiniteDuration};
-  return {};
+std::optional<Effect> EffectBehind(absl::string_view path) {
+  if (absl::StartsWith(path, "contact.")) return Effect::kFiniteDuration;
+  return std::nullopt;
 }
 
 Demand WithNumbers(Demand demand, absl::Span<const std::string> paths) {
-  for (const std::string& path : paths) demand.required = demand.required | EffectsBehind(path);
+  for (const std::string& path : paths) {
+    if (const auto effect = EffectBehind(path)) demand.required.Add(*effect);
+  }
   return demand;
 }
 
 std::string LackingForNumber(const Scene& scene, absl::string_view path) {
-  const EffectSet behind = EffectsBehind(path);
-  for (const Effect effect : kEffects) {
-    if (!behind.Has(effect)) continue;
-    const std::string lacking = MissingPart(scene, effect);
-    if (!lacking.empty()) return lacking;
-  }
-  return "";
+  const std::optional<Effect> effect = EffectBehind(path);
+  return effect.has_value() ? MissingPart(scene, *effect) : "";
 }
 
 std::vector<std::string> WhyNoNumber(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
                                      absl::string_view path) {
-  const EffectSet behind = EffectsBehind(path);
-  if (demand.required.Contains(behind)) return {};
-  const std::string lacking = LackingForNumber(scene, path);
+  const std::optional<Effect> effect = EffectBehind(path);
+  if (!effect.has_value() || demand.required.Has(*effect)) return {};
+  const std::string lacking = MissingPart(scene, *effect);
   if (!lacking.empty()) return {absl::StrCat("must not be asked of a scene without ", lacking)};
   Demand asked = demand;
-  asked.required = asked.required | behind;
+  asked.required.Add(*effect);
   std::vector<std::string> reasons;
-  for (const Violation& violation : CheckDemand(scene, contact, asked)) {
-    for (const Effect effect : kEffects) {
-      if (behind.Has(effect)) reasons.push_back(Against(effect, violation));
-    }
-  }
+  for (const Violation& violation : CheckDemand(scene, contact, asked)) reasons.push_back(Against(*effect, violation));
   return reasons;
 }
 

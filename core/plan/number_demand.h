@@ -1,5 +1,5 @@
 // NumberDemand: what asking for a number of an outcome asks of the plan. Asking for the number is asking for the
-// effects that make it.
+// effect that makes it.
 //
 // Most numbers are those of every model, and ask for nothing. The numbers of Outcome::contact are made by finite
 // duration, which a plan leaves out wherever velocities and impulses do not depend on it. The columns of sweeps and
@@ -16,15 +16,15 @@
 #include "absl/types/span.h"
 #include "core/contact/scene_contact.h"
 #include "core/plan/demand.h"
-#include "core/plan/effect_set.h"
+#include "ricochet/plan.h"
 #include "ricochet/scene.h"
 
 namespace ricochet {
 
-// The effects that make the number at `path`: "contact.duration_s".
-EffectSet EffectsBehind(absl::string_view path);
+// The effect that makes the number at `path`, "contact.duration_s"; none for a number of every model.
+std::optional<Effect> EffectBehind(absl::string_view path);
 
-// Requires the effects behind each number, besides those that the demand requires.
+// Requires the effect behind each number, besides those that the demand requires.
 Demand WithNumbers(Demand demand, absl::Span<const std::string> paths);
 
 // The part that the scene lacks for the number, so that no outcome of it has the number; empty if it lacks nothing.

@@ -123,7 +123,7 @@ std::vector<std::string> ColumnPlaces(const Scene& scene) {
 
 bool MayBeUnset(absl::string_view column) {
   return absl::StartsWith(column, "errors.") || ReadDerivativeName(column).has_value() ||
-         !EffectsBehind(column).IsEmpty();
+         EffectBehind(column).has_value();
 }
 
 std::vector<Violation> CheckColumns(const Scene& scene, const std::vector<std::string>& columns) {
