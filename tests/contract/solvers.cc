@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "core/models/restitution_law.h"
 #include "ricochet/client.h"
 #include "ricochet/solver.h"
 #include "tests/support/processes/server_process.h"
@@ -28,17 +29,7 @@ Scene MakeScene(const pendulum::Problem& problem) {
   scene.system = Pendulum{problem.inertia, problem.a, problem.b, problem.omega_minus};
   scene.friction.kinetic_coefficient = problem.mu;
   if (problem.mu_static != problem.mu) scene.friction.static_coefficient = problem.mu_static;
-  switch (problem.law) {
-    case RestitutionLaw::kNewton:
-      scene.restitution = NewtonCoefficient{problem.coefficient};
-      break;
-    case RestitutionLaw::kPoisson:
-      scene.restitution = PoissonCoefficient{problem.coefficient};
-      break;
-    case RestitutionLaw::kEnergetic:
-      scene.restitution = EnergeticCoefficient{problem.coefficient};
-      break;
-  }
+  scene.restitution = ToRestitution(problem.law, problem.coefficient);
   return scene;
 }
 

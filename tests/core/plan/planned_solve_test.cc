@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/plan/contact_scene.h"
 #include "ricochet/solver.h"
 #include "tests/support/scenes/planar_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
@@ -112,12 +113,7 @@ TEST(PlannedSolveTest, RatesAfterAnImpactThatTakesTimeMoveTheContactAsItMoves) {
 }
 
 Outcome SolvedWithin(const planar::Problem& problem, double tolerance) {
-  Scene scene = {.system = PlanarContact{problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0},
-                 .friction = {.kinetic_coefficient = problem.mu, .static_coefficient = problem.mu_static},
-                 .restitution = EnergeticCoefficient{problem.coefficient}};
-  if (problem.law == RestitutionLaw::kNewton) scene.restitution = NewtonCoefficient{problem.coefficient};
-  if (problem.law == RestitutionLaw::kPoisson) scene.restitution = PoissonCoefficient{problem.coefficient};
-  return Solved({.scene = scene, .demand = {.relative_tolerance = tolerance}});
+  return Solved({.scene = SceneOf(problem), .demand = {.relative_tolerance = tolerance}});
 }
 
 // Checks the promise of SolveRequest.relative_tolerance against the impact with all its effects to double precision.
