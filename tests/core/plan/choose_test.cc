@@ -41,7 +41,7 @@ class Usage {
 
 double SomeTolerance(PlanScenes& scenes) { return scenes.Below(32) == 0 ? 0.0 : scenes.Tolerance(); }
 
-// Half of the scenes have compliance, with a conditioning for which the compliant model does not chatter.
+// Half of the scenes have compliance.
 struct PlanarScene {
   planar::Problem problem;
   ContactPhysics physics;
@@ -49,14 +49,7 @@ struct PlanarScene {
 PlanarScene SomePlanarScene(PlanScenes& scenes) {
   PlanarScene scene = {.problem = scenes.Planar()};
   if (scenes.Below(2) == 0) return scene;
-  planar::Problem& problem = scene.problem;
-  do {
-    problem = scenes.OfManyScales();
-  } while (problem.w.tn * problem.w.tn > 0.99 * problem.w.tt * problem.w.nn);
-  problem.law = RestitutionLaw::kEnergetic;
-  problem.coefficient = std::min(problem.coefficient, 1.0);
-  problem.mu = std::min(problem.mu, 0.9 * problem.w.nn / std::fabs(problem.w.tn));
-  problem.mu_static = problem.mu;
+  scene.problem = scenes.ForSprings();
   scene.physics.ratio_squared = scenes.Power(-2.0, 1.0);
   return scene;
 }

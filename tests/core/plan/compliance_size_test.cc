@@ -6,7 +6,6 @@
 
 #include "core/models/compliant/compliant.h"
 #include "core/models/planar/planar.h"
-#include "core/models/restitution_law.h"
 #include "core/plan/sizes.h"
 #include "tests/support/claims/impact_change.h"
 #include "tests/support/claims/impact_tally.h"
@@ -18,21 +17,11 @@ namespace {
 
 constexpr int kScenes = 100'000;
 
-// The conditioning is moderate, because near rank one or near locking a compliant contact may rattle for ever.
-planar::Problem Scene(PlanScenes& scenes) {
-  planar::Problem problem = scenes.OfManyScales();
-  while (problem.w.tn * problem.w.tn > 0.99 * problem.w.tt * problem.w.nn) problem = scenes.OfManyScales();
-  problem.law = RestitutionLaw::kEnergetic;
-  problem.mu = std::min(problem.mu, 0.9 * problem.w.nn / std::fabs(problem.w.tn));
-  problem.mu_static = problem.mu;
-  return problem;
-}
-
 TEST(ComplianceSizeTest, OfTangentialCompliance) {
   PlanScenes scenes(11);
   ImpactTally tally("tangential compliance");
   for (int i = 0; i < kScenes; ++i) {
-    planar::Problem problem = Scene(scenes);
+    planar::Problem problem = scenes.ForSprings();
     const double ratio_squared = scenes.Power(-2.0, 1.0);
     // These contacts nearly stick at once.
     if (scenes.Below(16) == 0) {
@@ -52,7 +41,7 @@ TEST(ComplianceSizeTest, FrictionOfACompliantContact) {
   PlanScenes scenes(12);
   ImpactTally tally("friction, compliant");
   for (int i = 0; i < kScenes / 2; ++i) {
-    const planar::Problem problem = Scene(scenes);
+    const planar::Problem problem = scenes.ForSprings();
     const double ratio_squared = scenes.Power(-2.0, 1.0);
     const compliant::Impact with = compliant::Solve(CompliantOf(problem, ratio_squared));
     const auto without = EndingOf(planar::Solve(Smooth(problem)));

@@ -6,7 +6,6 @@
 
 #include "core/models/finite_duration/finite_duration.h"
 #include "core/models/planar/planar.h"
-#include "core/models/restitution_law.h"
 #include "core/plan/contact_time.h"
 #include "core/plan/sizes.h"
 #include "tests/support/claims/impact_change.h"
@@ -25,13 +24,8 @@ struct Forced {
 };
 
 Forced Scene(PlanScenes& scenes) {
-  Forced scene = {.problem = scenes.OfManyScales()};
-  planar::Problem& problem = scene.problem;
-  while (problem.w.tn * problem.w.tn > 0.99 * problem.w.tt * problem.w.nn) problem = scenes.OfManyScales();
-  problem.law = RestitutionLaw::kEnergetic;
-  problem.coefficient = scenes.Uniform(0.1, 1.0);
-  problem.mu = std::min(problem.mu, 0.9 * problem.w.nn / std::fabs(problem.w.tn));
-  problem.mu_static = problem.mu;
+  Forced scene = {.problem = scenes.ForSprings()};
+  scene.problem.coefficient = scenes.Uniform(0.1, 1.0);
   const double stiffness = scenes.Power(3.0, 9.0);
   if (scenes.Below(2) == 0) {
     scene.physics.spring = LinearSpring{.stiffness_n_m = stiffness};

@@ -3,6 +3,7 @@
 #ifndef RICOCHET_TESTS_SUPPORT_SCENES_PLAN_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_SCENES_PLAN_SCENES_H_
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -65,6 +66,16 @@ class PlanScenes {
     return problem;
   }
 
+  // A contact that may be given springs: near rank one or near locking, a compliant one may rattle for ever.
+  planar::Problem ForSprings() {
+    planar::Problem problem = OfManyScales();
+    while (problem.w.tn * problem.w.tn > 0.99 * problem.w.tt * problem.w.nn) problem = OfManyScales();
+    problem.law = RestitutionLaw::kEnergetic;
+    problem.mu = std::min(problem.mu, 0.9 * problem.w.nn / std::fabs(problem.w.tn));
+    problem.mu_static = problem.mu;
+    return problem;
+  }
+
   // A tolerance from 10^-12 to 10^-1.
   double Tolerance() { return Power(-12.0, -1.0); }
   // 10 to a power between both arguments.
@@ -73,6 +84,7 @@ class PlanScenes {
   uint64_t Below(uint64_t bound) { return planar_.Below(bound); }
   double Sign() { return planar_.Sign(); }
 
+ private:
   planar::Problem OfManyScales() {
     const double wnn = Power(-2.0, 2.0);
     const double wtt = wnn * Power(-1.5, 1.5);
@@ -85,7 +97,6 @@ class PlanScenes {
     return problem;
   }
 
- private:
   template <typename Problem>
   void SetRestitution(Problem& problem) {
     problem.law = static_cast<RestitutionLaw>(Below(3));
