@@ -74,9 +74,7 @@ std::vector<Violation> CheckBoundsDerivatives(const Scene& scene, const Derivati
     violations.push_back(MakeViolation("derivatives.find_thresholds", "is set", "not be, for bounds"));
   }
   std::vector<std::string> by = FieldPaths(scene);
-  by.erase(std::remove_if(by.begin(), by.end(),
-                          [](const std::string& path) { return absl::StartsWith(path, "restitution."); }),
-           by.end());
+  std::erase_if(by, [](const std::string& path) { return absl::StartsWith(path, "restitution."); });
   CheckPaths("by", paths.by, by, "a number of the scene other than restitution", violations);
   return violations;
 }

@@ -90,9 +90,7 @@ std::vector<std::string> SystemVelocityPaths(const Scene& scene) {
 
 DerivativePaths AllDerivativePaths(const Scene& scene) {
   DerivativePaths paths = {.of = OutputPaths(scene), .by = FieldPaths(scene)};
-  paths.by.erase(std::remove_if(paths.by.begin(), paths.by.end(),
-                                [&scene](const std::string& path) { return IsOtherDefinition(scene, path); }),
-                 paths.by.end());
+  std::erase_if(paths.by, [&scene](const std::string& path) { return IsOtherDefinition(scene, path); });
   return paths;
 }
 

@@ -1,5 +1,6 @@
 #include "core/answer/notes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -60,10 +61,7 @@ void AddJamNote(int full_rank, Outcome& outcome) {
 }
 
 bool IsAtRest(const Components& tangential) {
-  for (const double u : tangential) {
-    if (u != 0.0) return false;
-  }
-  return true;
+  return std::all_of(tangential.begin(), tangential.end(), [](double u) { return u == 0.0; });
 }
 
 // The note for a contact that friction does not move, and that does not slip.

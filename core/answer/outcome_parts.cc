@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -14,11 +15,7 @@
 namespace ricochet {
 namespace {
 
-double Sum(const Components& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum;
-}
+double Sum(const Components& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 bool AllFinite(const Components& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
