@@ -29,6 +29,15 @@ Eigen::VectorXd LeastParted(const Problem& problem, int i, const Eigen::VectorXd
 
 }  // namespace
 
+Eigen::VectorXd EnergyMetric::CoordinatesOf(const Eigen::VectorXd& v) const {
+  Eigen::VectorXd coordinates(g.cols());
+  for (Eigen::Index c = 0; c < coordinates.size(); ++c) {
+    const int row = pivots[static_cast<size_t>(c)];
+    coordinates(c) = (v(row) - g.row(row).head(c).dot(coordinates.head(c))) / g(row, c);
+  }
+  return coordinates;
+}
+
 Eigen::VectorXd EnergyMetric::ImpulseFor(const Eigen::VectorXd& direction) const {
   const auto rank = static_cast<Eigen::Index>(pivots.size());
   Eigen::VectorXd rest = direction;
@@ -63,11 +72,7 @@ EnergyMetric MetricOf(const Problem& problem) {
   }
   const auto rank = static_cast<Eigen::Index>(metric.pivots.size());
   metric.g = g.leftCols(rank);
-  metric.y.resize(rank);
-  for (Eigen::Index c = 0; c < rank; ++c) {
-    const int row = metric.pivots[static_cast<size_t>(c)];
-    metric.y(c) = (problem.v(row) - metric.g.row(row).head(c).dot(metric.y.head(c))) / metric.g(row, c);
-  }
+  metric.y = metric.CoordinatesOf(problem.v);
   metric.x = metric.ImpulseFor(metric.y);
   // sqrt(v . W+ v) <= sqrt(x . W x) + sqrt(r . W+ r) with the residual r = v - W x.
   Interval energy(0.0);

@@ -21,6 +21,8 @@ struct EnergyMetric {
   Eigen::VectorXd x;         // v = W x, up to rounding; only pivots are not 0.
   double root_energy = 0.0;  // An upper bound of sqrt(v . W+ v).
 
+  // The y for which G y has the entries of `v` at the pivots.
+  Eigen::VectorXd CoordinatesOf(const Eigen::VectorXd& v) const;
   // The impulse at the pivots for which G^T times it is `direction`.
   Eigen::VectorXd ImpulseFor(const Eigen::VectorXd& direction) const;
 };
