@@ -540,19 +540,12 @@ class Motion {
 
   Attained Finish() {
     if (mirror_.has_value()) {
-      std::array<double, kMostContacts> compression{}, restitution{}, friction{}, impulse{};
-      for (size_t i = 0; i < kMostContacts; ++i) {
-        compression[i] = result_.works[i].compression;
-        restitution[i] = result_.works[i].restitution;
-        friction[i] = result_.works[i].friction;
-        impulse[i] = result_.works[i].compression_impulse;
-      }
-      for (auto* const one : {&compression, &restitution, &friction, &impulse}) mirror_->Average(*one);
-      for (size_t i = 0; i < kMostContacts; ++i) {
-        result_.works[i] = {.compression = compression[i],
-                            .restitution = restitution[i],
-                            .friction = friction[i],
-                            .compression_impulse = impulse[i]};
+      for (const auto number : {&ContactWorks::compression, &ContactWorks::restitution, &ContactWorks::friction,
+                                &ContactWorks::compression_impulse}) {
+        std::array<double, kMostContacts> numbers;
+        for (size_t i = 0; i < kMostContacts; ++i) numbers[i] = result_.works[i].*number;
+        mirror_->Average(numbers);
+        for (size_t i = 0; i < kMostContacts; ++i) result_.works[i].*number = numbers[i];
       }
       mirror_->Average(v_);
     }
