@@ -32,8 +32,7 @@ class Barrier {
     const auto rank = static_cast<Eigen::Index>(metric.pivots.size());
     const Eigen::Index free = has_pi ? rank : 0;
     const Eigen::Index size = problem.k + free + 1;
-    Eigen::MatrixXd of_pivots(free, rank);
-    for (Eigen::Index i = 0; i < free; ++i) of_pivots.row(i) = metric.g.row(metric.pivots[static_cast<size_t>(i)]);
+    const Eigen::MatrixXd of_pivots = metric.g(metric.pivots, Eigen::all).topRows(free);
     Cone& energy = cones_.emplace_back(
         Cone{.rows = Eigen::MatrixXd::Zero(rank + 1, size), .shift = Eigen::VectorXd::Zero(rank + 1)});
     energy.shift.head(rank) = metric.g.transpose() * gamma;
@@ -47,7 +46,7 @@ class Barrier {
       cone.rows.middleCols(problem.k, free) = metric.g.middleRows(problem.T(i), problem.d) * of_pivots.transpose();
     }
     linear_ = Eigen::VectorXd::Zero(size);
-    for (Eigen::Index i = 0; i < free; ++i) linear_(problem.k + i) = -problem.v(metric.pivots[static_cast<size_t>(i)]);
+    linear_.segment(problem.k, free) = -problem.v(metric.pivots).head(free);
     linear_(size - 1) = metric.y.norm();
   }
 
@@ -123,16 +122,13 @@ DualPoint MinimiseDual(const Problem& problem, const EnergyMetric& metric, const
   for (int i = 0; i < problem.k; ++i) norm += metric.g.row(problem.N(i)).norm();
   if (has_pi) {
     const Eigen::VectorXd start = metric.g.transpose() * apart;
-    const Eigen::VectorXd impulse = metric.ImpulseFor(start * (length / start.norm()));
-    for (Eigen::Index i = 0; i < rank; ++i) x(problem.k + i) = impulse(metric.pivots[static_cast<size_t>(i)]);
+    x.segment(problem.k, rank) = metric.ImpulseFor(start * (length / start.norm()))(metric.pivots);
   }
   x(barrier.size() - 1) = (3.0 + norm) * length;
   const double scale = metric.y.norm() * length;
   for (double weight = scale; weight > kLast * scale && !stopped(); weight *= kFactor) Centre(barrier, weight, x);
   point.nu = x.head(problem.k);
-  for (Eigen::Index i = 0; has_pi && i < rank; ++i) {
-    point.pi(metric.pivots[static_cast<size_t>(i)]) = x(problem.k + i);
-  }
+  if (has_pi) point.pi(metric.pivots) = x.segment(problem.k, rank);
   return point;
 }
 

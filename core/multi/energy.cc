@@ -86,10 +86,7 @@ EnergyMetric MetricOf(const Problem& problem) {
     const Interval rest = Interval(problem.v(i)) - moved;
     residual(pivot - metric.pivots.begin()) = std::max(std::abs(rest.lower), std::abs(rest.upper));
   }
-  double of_residual = 0.0;
-  for (Eigen::Index c = 0; c < rank; ++c) {
-    of_residual += residual(c) / metric.g(metric.pivots[static_cast<size_t>(c)], c);
-  }
+  const double of_residual = residual.cwiseQuotient(metric.g(metric.pivots, Eigen::all).diagonal()).sum();
   metric.root_energy =
       (Sqrt(AtLeast(energy, 0.0)) + Interval(4.0 * static_cast<double>(std::max<Eigen::Index>(rank, 1)) * of_residual))
           .upper;
