@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -13,37 +12,37 @@ namespace {
 
 // The two contacts as a linear system in their normal impulses. The second one approaches.
 struct Pair {
-  std::array<int, 2> contact;
-  std::array<double, 2> e, friction;              // friction: -mu s, the tangential impulse by the normal one.
-  Eigen::Matrix<double, Eigen::Dynamic, 2> rows;  // W times the unit impulses of the two.
-  Eigen::Matrix2d a;                              // Normal velocities by normal impulses.
-  Eigen::MatrixXd unit;                           // The unit impulses.
-  Eigen::Vector2d v;                              // Normal velocities.
-  double determinant = 0.0;                       // The determinant of a.
-  bool is_singular = false;                       // The determinant is rounding alone.
+  Eigen::Vector2i contact;
+  Eigen::Vector2d e;
+  Eigen::Vector2d friction = Eigen::Vector2d::Zero();  // -mu s, the tangential impulse by the normal one.
+  Eigen::Matrix<double, Eigen::Dynamic, 2> rows;       // W times the unit impulses of the two.
+  Eigen::Matrix2d a;                                   // Normal velocities by normal impulses.
+  Eigen::MatrixXd unit;                                // The unit impulses.
+  Eigen::Vector2d v;                                   // Normal velocities.
+  double determinant = 0.0;                            // The determinant of a.
+  bool is_singular = false;                            // The determinant is rounding alone.
 
-  bool IsFrictionless() const { return friction[0] == 0.0 && friction[1] == 0.0; }
+  bool IsFrictionless() const { return friction.isZero(0.0); }
 };
 
 // Returns nothing if a contact with friction does not slip, or slips in space, where it turns.
 std::optional<Pair> PairOf(const Problem& problem, int i, int j, const Vector& v) {
-  Pair pair = {.contact = {i, j}, .e = {}, .friction = {}, .rows = {}, .a = {}, .unit = {}, .v = {}};
+  Pair pair = {.contact = {i, j}, .e = {}, .rows = {}, .a = {}, .unit = {}, .v = {}};
   Eigen::MatrixXd& unit = pair.unit;
   unit = Eigen::MatrixXd::Zero(v.size(), 2);
-  for (size_t c = 0; c < 2; ++c) {
-    const int contact = pair.contact[c];
-    const auto column = static_cast<Eigen::Index>(c);
+  for (int c = 0; c < 2; ++c) {
+    const int contact = pair.contact(c);
     const ContactLaw& law = problem.laws[static_cast<size_t>(contact)];
     const double slip = v(problem.T(contact));
     if (law.mu > 0.0 && (problem.d == 3 || slip == 0.0)) return std::nullopt;
-    pair.e[c] = law.e;
-    if (law.mu > 0.0) pair.friction[c] = -std::copysign(law.mu, slip);
-    unit(problem.N(contact), column) = 1.0;
-    if (law.mu > 0.0) unit(problem.T(contact), column) = pair.friction[c];
-    pair.v(column) = v(problem.N(contact));
+    pair.e(c) = law.e;
+    if (law.mu > 0.0) pair.friction(c) = -std::copysign(law.mu, slip);
+    unit(problem.N(contact), c) = 1.0;
+    if (law.mu > 0.0) unit(problem.T(contact), c) = pair.friction(c);
+    pair.v(c) = v(problem.N(contact));
   }
   pair.rows = problem.w * unit;
-  for (int row = 0; row < 2; ++row) pair.a.row(row) = pair.rows.row(problem.N(pair.contact[static_cast<size_t>(row)]));
+  for (int c = 0; c < 2; ++c) pair.a.row(c) = pair.rows.row(problem.N(pair.contact(c)));
   pair.determinant = DifferenceOfProducts(pair.a(0, 0), pair.a(1, 1), pair.a(0, 1), pair.a(1, 0));
   pair.is_singular = std::abs(pair.determinant) <= 8.0 * kEpsilon * pair.a(0, 0) * pair.a(1, 1);
   return pair;
@@ -53,7 +52,7 @@ std::optional<Pair> PairOf(const Problem& problem, int i, int j, const Vector& v
 bool IsEndless(const Pair& pair, double approach) {
   const Eigen::Matrix2d& a = pair.a;
   if (!(a(0, 0) > 0.0 && a(1, 1) > 0.0 && a(0, 1) < 0.0 && a(1, 0) < 0.0)) return false;
-  const auto [e1, e2] = pair.e;
+  const double e1 = pair.e(0), e2 = pair.e(1);
   const double product = (1.0 + e1) * (1.0 + e2) * (a(0, 1) * a(1, 0) / (a(0, 0) * a(1, 1)));
   const double roots = std::sqrt(e1) + std::sqrt(e2);
   const double excess = product - roots * roots;
@@ -75,11 +74,11 @@ std::optional<Eigen::Vector2d> RemainingImpulses(const Pair& pair) {
     return impulses;
   }
   // Both normal velocities are proportional, and two impacts multiply them by e1 e2.
-  const double factor = pair.e[0] * pair.e[1];
+  const double factor = pair.e(0) * pair.e(1);
   if (!pair.IsFrictionless() || factor == 1.0) return std::nullopt;
   const double second = -pair.v(1);
-  const double first = pair.e[1] * second * (-a(0, 1) / a(1, 1));
-  return Eigen::Vector2d((1.0 + pair.e[0]) * first / a(0, 0), (1.0 + pair.e[1]) * second / a(1, 1)) / (1.0 - factor);
+  const double first = pair.e(1) * second * (-a(0, 1) / a(1, 1));
+  return Eigen::Vector2d((1.0 + pair.e(0)) * first / a(0, 0), (1.0 + pair.e(1)) * second / a(1, 1)) / (1.0 - factor);
 }
 
 // True if slip keeps its directions and no other contact approaches until the limit. Partial sums of both impulses
@@ -89,7 +88,7 @@ bool KeepsCourse(const Problem& problem, const Pair& pair, const Eigen::MatrixXd
     return sign * state.v(place) + (sign * moved.row(place)).cwiseMin(0.0).sum();
   };
   for (int contact = 0; contact < problem.k; ++contact) {
-    const bool is_pair = contact == pair.contact[0] || contact == pair.contact[1];
+    const bool is_pair = contact == pair.contact(0) || contact == pair.contact(1);
     if (!is_pair && least(problem.N(contact), 1.0) < 0.0) return false;
     if (!is_pair || problem.laws[static_cast<size_t>(contact)].mu == 0.0) continue;
     const int t = problem.T(contact);
@@ -102,29 +101,25 @@ bool KeepsCourse(const Problem& problem, const Pair& pair, const Eigen::MatrixXd
 void AddWorks(const Problem& problem, const Pair& pair, Attained& state) {
   constexpr int kMost = 100'000;
   Eigen::Vector2d v = pair.v;
-  std::array<double, 2> u;
-  for (size_t c = 0; c < 2; ++c) u[c] = state.v(problem.T(pair.contact[c]));
+  Eigen::Vector2d u(state.v(problem.T(pair.contact(0))), state.v(problem.T(pair.contact(1))));
   double first = 0.0;
   for (int hit = 0; hit < kMost; ++hit) {
-    const size_t c = hit % 2 == 0 ? 1 : 0;
-    const auto column = static_cast<Eigen::Index>(c);
-    ContactWorks& works = state.works[static_cast<size_t>(pair.contact[c])];
-    const double speed = -v(column);
+    const int c = hit % 2 == 0 ? 1 : 0;
+    ContactWorks& works = state.works[static_cast<size_t>(pair.contact(c))];
+    const double speed = -v(c);
     if (!(speed > 0.0)) break;
-    const double compression = 0.5 * speed * speed / pair.a(column, column);
+    const double compression = 0.5 * speed * speed / pair.a(c, c);
     // The work of friction falls like the speed, that of the normal force like its square.
     first = std::max(first, speed);
     if (speed < 0x1p-60 * first) break;
-    const double impulse = (1.0 + pair.e[c]) * speed / pair.a(column, column);
+    const double impulse = (1.0 + pair.e(c)) * speed / pair.a(c, c);
     works.compression -= compression;
-    works.restitution += pair.e[c] * pair.e[c] * compression;
-    for (size_t other = 0; other < 2; ++other) {
-      const double before = u[other];
-      u[other] += pair.rows(problem.T(pair.contact[other]), column) * impulse;
-      if (other == c) works.friction += pair.friction[c] * impulse * 0.5 * (before + u[c]);
-    }
-    v += pair.a.col(column) * impulse;
-    v(column) = pair.e[c] * speed;
+    works.restitution += pair.e(c) * pair.e(c) * compression;
+    const double before = u(c);
+    for (int other = 0; other < 2; ++other) u(other) += pair.rows(problem.T(pair.contact(other)), c) * impulse;
+    works.friction += pair.friction(c) * impulse * 0.5 * (before + u(c));
+    v += pair.a.col(c) * impulse;
+    v(c) = pair.e(c) * speed;
   }
 }
 
@@ -134,9 +129,9 @@ Eigen::Matrix2d InverseOf(const Pair& pair) {
   Eigen::Matrix2d inverse;
   inverse << a(1, 1), -a(0, 1), -a(1, 0), a(0, 0);
   if (!pair.is_singular) return inverse / pair.determinant;
-  const double sum = 1.0 / (1.0 - pair.e[0] * pair.e[1]);
-  inverse << 0.0, (1.0 + pair.e[0]) * pair.e[1] * sum * (-a(0, 1) / a(1, 1)) / a(0, 0),  //
-      0.0, (1.0 + pair.e[1]) * sum / a(1, 1);
+  const double sum = 1.0 / (1.0 - pair.e(0) * pair.e(1));
+  inverse << 0.0, (1.0 + pair.e(0)) * pair.e(1) * sum * (-a(0, 1) / a(1, 1)) / a(0, 0),  //
+      0.0, (1.0 + pair.e(1)) * sum / a(1, 1);
   return inverse;
 }
 
@@ -145,13 +140,9 @@ void AddError(const Problem& problem, const Pair& pair, const Eigen::Vector2d& i
   const Eigen::Index size = state.p.size();
   if (state.error_terms == 0.0) state.error_squares = Eigen::MatrixXd::Zero(size, size);
   const Eigen::Matrix2d inverse = InverseOf(pair);
-  Eigen::MatrixXd normals(2, size);
-  Eigen::Vector2d slack;
-  for (int c = 0; c < 2; ++c) {
-    const int n = problem.N(pair.contact[static_cast<size_t>(c)]);
-    normals.row(c) = problem.w.row(n);
-    slack(c) = state.slack(n);
-  }
+  const Eigen::Vector2i n(problem.N(pair.contact(0)), problem.N(pair.contact(1)));
+  const Eigen::MatrixXd normals = problem.w(n, Eigen::all);
+  const Eigen::Vector2d slack = state.slack(n);
   const Eigen::MatrixXd map = Eigen::MatrixXd::Identity(size, size) - pair.unit * (inverse * normals);
   state.error_squares = map * state.error_squares * map.transpose();
   // The rounding of the solution of the 2 x 2 system, and of what it starts from.
@@ -160,10 +151,8 @@ void AddError(const Problem& problem, const Pair& pair, const Eigen::Vector2d& i
   for (int c = 0; c < 2; ++c) {
     const double own = of_system(c) + 2.0 * kEpsilon * impulses(c);
     state.error_squares += own * own * pair.unit.col(c) * pair.unit.col(c).transpose();
-    for (int row = 0; row < 2; ++row) {
-      const int n = problem.N(pair.contact[static_cast<size_t>(row)]);
-      state.work_error +=
-          4.0 * impulses(c) * (1.0 + std::abs(pair.friction[static_cast<size_t>(c)])) * state.ErrorOf(problem, n);
+    for (const int row : n) {
+      state.work_error += 4.0 * impulses(c) * (1.0 + std::abs(pair.friction(c))) * state.ErrorOf(problem, row);
     }
   }
   state.error_terms += 2.0;
@@ -180,12 +169,12 @@ bool CloseEndlessPair(const Problem& problem, int i, int j, double approach, Att
   if (!KeepsCourse(problem, *pair, moved, state)) return false;
   AddWorks(problem, *pair, state);
   AddError(problem, *pair, *impulses, state);
-  for (size_t c = 0; c < 2; ++c) {
-    const double impulse = (*impulses)(static_cast<Eigen::Index>(c));
-    const int contact = pair->contact[c];
-    state.works[static_cast<size_t>(contact)].compression_impulse += impulse / (1.0 + pair->e[c]);
+  for (int c = 0; c < 2; ++c) {
+    const double impulse = (*impulses)(c);
+    const int contact = pair->contact(c);
+    state.works[static_cast<size_t>(contact)].compression_impulse += impulse / (1.0 + pair->e(c));
     state.p(problem.N(contact)) += impulse;
-    if (pair->friction[c] != 0.0) state.p(problem.T(contact)) += pair->friction[c] * impulse;
+    if (pair->friction(c) != 0.0) state.p(problem.T(contact)) += pair->friction(c) * impulse;
   }
   state.slack += 4.0 * kEpsilon * (moved.cwiseAbs().rowwise().sum() + state.v.cwiseAbs());
   state.v += moved.rowwise().sum();
