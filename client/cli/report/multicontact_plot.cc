@@ -16,13 +16,6 @@ namespace {
 
 using Points = std::vector<std::pair<double, double>>;
 
-// The numbers of an outcome that a panel shows, which the answer's bounds have under the same names.
-std::vector<double> NumbersOf(const AttainedOutcome& outcome) {
-  std::vector<double> numbers = outcome.contact_velocity_m_s;
-  numbers.insert(numbers.end(), outcome.velocity.begin(), outcome.velocity.end());
-  return numbers;
-}
-
 // Adds an arrow, whose head is a fifth of its length.
 void AddArrow(const std::pair<double, double>& from, double x, double y, Points& points) {
   const std::pair<double, double> to = {from.first + x, from.second + y};
@@ -76,15 +69,10 @@ Panel StrikePanel(const FreeBodies& free, const std::vector<MultiContactPoint>& 
 Panel OutcomesPanel(const MultiContactRequest& request, const MultiContactAnswer& answer) {
   Panel panel = {.title = "Outcomes within what is possible", .x_label = "velocity after [m/s, rad/s]"};
   std::vector<std::string> names;
+  for (const PossibleRange& range : answer.possible) names.push_back(range.output);
+  if (names.empty()) names = OutputNames(request);
   Points bars, orders, springs;
   const auto height = [&](size_t i) { return static_cast<double>(names.size() - i); };
-  if (!answer.possible.empty()) {
-    for (const PossibleRange& range : answer.possible) names.push_back(range.output);
-  } else if (!answer.orders.empty()) {
-    names = OutputNames(request, answer.orders.front());
-  } else if (answer.springs.has_value()) {
-    names = OutputNames(request, *answer.springs);
-  }
   for (size_t i = 0; i < names.size(); ++i) {
     panel.y_ticks.push_back({height(i), names[i]});
     if (answer.possible.empty()) continue;
@@ -112,7 +100,7 @@ Panel StiffnessPanel(const MultiContactRequest& request, const MultiContactAnswe
                  .y_label = "velocity after [m/s, rad/s]",
                  .log_x = true};
   const AttainedOutcome& first = samples.front().outcome;
-  const std::vector<std::string> names = OutputNames(request, first);
+  const std::vector<std::string> names = OutputNames(request);
   const size_t start = first.velocity.empty() ? 0 : first.contact_velocity_m_s.size();
   for (size_t i = start; i < names.size(); ++i) {
     Curve& curve = panel.curves.emplace_back(Curve{.title = names[i], .points = {}});

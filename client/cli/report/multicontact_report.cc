@@ -117,10 +117,10 @@ std::vector<std::pair<std::string, const AttainedOutcome*>> ShownOutcomes(const 
 std::string OutcomesText(const MultiContactRequest& request, const MultiContactAnswer& answer) {
   const auto outcomes = ShownOutcomes(answer);
   if (outcomes.empty()) return "";
-  const AttainedOutcome& first = *outcomes.front().second;
-  const std::vector<std::string> names = OutputNames(request, first);
+  const std::vector<std::string> names = OutputNames(request);
+  const auto shown = static_cast<std::ptrdiff_t>(Shown(*outcomes.front().second).size());
   std::vector<std::string> header = {"", "ends", "events"};
-  header.insert(header.end(), names.end() - static_cast<std::ptrdiff_t>(Shown(first).size()), names.end());
+  header.insert(header.end(), names.end() - shown, names.end());
   header.emplace_back("error");
   Table table;
   table.Add(header);
@@ -207,11 +207,11 @@ void AddNumbers(const std::vector<std::string>& names, const std::string& ending
   }
 }
 
-// Adds a row with the columns of an outcome and the values of the outputs. `asked` are the values of the functions that
-// the request asks for.
-void AddOutcome(const MultiContactRequest& request, size_t state, const std::string& name,
-                std::optional<double> stiffness, const AttainedOutcome& outcome, const std::vector<double>& asked,
-                std::vector<CsvRow>& rows) {
+// Adds a row with the columns of an outcome. `numbers` are the values of the outputs, and then those of the functions
+// that the request asks for, which an end of the bounds alone has. Such an end has no other numbers: its outcome is
+// empty.
+void AddRow(const MultiContactRequest& request, size_t state, const std::string& name, std::optional<double> stiffness,
+            const AttainedOutcome& outcome, const std::vector<double>& numbers, std::vector<CsvRow>& rows) {
   CsvRow& row = rows.emplace_back();
   row.Integer("state", static_cast<int64_t>(state));
   row.Quoted("outcome", name);
@@ -220,52 +220,51 @@ void AddOutcome(const MultiContactRequest& request, size_t state, const std::str
   row.Words("end", is_outcome ? EnumName(outcome.end) : "");
   row.Integer("events", is_outcome ? std::optional(outcome.events) : std::nullopt);
   row.Words("error_is_proved", !is_outcome ? "" : outcome.error_is_proved ? "true" : "false");
-  std::vector<double> values = outcome.contact_velocity_m_s, errors = outcome.contact_velocity_error_m_s;
-  values.insert(values.end(), outcome.velocity.begin(), outcome.velocity.end());
+  std::vector<double> errors = outcome.contact_velocity_error_m_s;
   errors.insert(errors.end(), outcome.velocity_error.begin(), outcome.velocity_error.end());
-  const std::vector<std::string> names = OutputNames(request, outcome);
-  AddNumbers(names, "", values, row);
+  const std::vector<std::string> names = OutputNames(request);
+  AddNumbers(names, "", numbers, row);
   AddNumbers(names, ".error", errors, row);
-  std::vector<std::string> impulses(names.begin(),
-                                    names.begin() + static_cast<std::ptrdiff_t>(outcome.contact_velocity_m_s.size()));
-  AddNumbers(impulses, ".impulse_n_s", outcome.impulse_n_s, row);
+  AddNumbers(ContactOutputNames(request.scene.contacts.size(), DirectionsOf(request.scene)), ".impulse_n_s",
+             outcome.impulse_n_s, row);
   row.Number("energy_change_j", is_outcome ? std::optional(outcome.energy_change_j) : std::nullopt);
   std::vector<std::string> functions;
   for (const LinearOutput& output : request.outputs) AppendCsv(output.name, functions.emplace_back());
-  AddNumbers(functions, "", asked, row);
+  const auto outputs = static_cast<std::ptrdiff_t>(std::min(names.size(), numbers.size()));
+  AddNumbers(functions, "", {numbers.begin() + outputs, numbers.end()}, row);
 }
 
 void AddAnswer(const MultiContactRequest& request, const MultiContactAnswer& answer, size_t state,
                std::vector<CsvRow>& rows) {
-  const auto outcomes = OutcomesOf(answer);
-  for (const auto& [name, outcome] : outcomes) AddOutcome(request, state, name, std::nullopt, *outcome, {}, rows);
-  for (const StiffnessSample& sample : answer.stiffness_samples) {
-    AddOutcome(request, state, kSprings, sample.relative_stiffness, sample.outcome, {}, rows);
+  for (const auto& [name, outcome] : OutcomesOf(answer)) {
+    AddRow(request, state, name, std::nullopt, *outcome, NumbersOf(*outcome), rows);
+  }
+  for (const auto& [stiffness, outcome] : answer.stiffness_samples) {
+    AddRow(request, state, kSprings, stiffness, outcome, NumbersOf(outcome), rows);
   }
   if (answer.possible.empty()) return;
-  AttainedOutcome lower, upper;
-  std::vector<double> asked_lower, asked_upper;
-  const size_t contacts = answer.contact_velocity_before_m_s.size();
-  for (size_t i = 0; i < answer.possible.size(); ++i) {
-    const PossibleRange& range = answer.possible[i];
-    const bool is_asked = i + request.outputs.size() >= answer.possible.size();
-    (is_asked ? asked_lower : i < contacts ? lower.contact_velocity_m_s : lower.velocity).push_back(range.lower);
-    (is_asked ? asked_upper : i < contacts ? upper.contact_velocity_m_s : upper.velocity).push_back(range.upper);
+  std::vector<double> lower, upper;
+  for (const PossibleRange& range : answer.possible) {
+    lower.push_back(range.lower);
+    upper.push_back(range.upper);
   }
-  AddOutcome(request, state, "possible, lower", std::nullopt, lower, asked_lower, rows);
-  AddOutcome(request, state, "possible, upper", std::nullopt, upper, asked_upper, rows);
+  AddRow(request, state, "possible, lower", std::nullopt, {}, lower, rows);
+  AddRow(request, state, "possible, upper", std::nullopt, {}, upper, rows);
 }
 
 }  // namespace
 
-std::vector<std::string> OutputNames(const MultiContactRequest& request, const AttainedOutcome& outcome) {
-  const size_t contacts = request.scene.contacts.size();
-  const size_t directions = contacts == 0 ? 2 : outcome.contact_velocity_m_s.size() / contacts;
-  std::vector<std::string> names = ContactOutputNames(contacts, static_cast<int>(directions));
-  for (std::string& name : SystemOutputNames(request.scene.system, static_cast<int>(directions))) {
-    names.push_back(std::move(name));
-  }
+std::vector<std::string> OutputNames(const MultiContactRequest& request) {
+  const int directions = DirectionsOf(request.scene);
+  std::vector<std::string> names = ContactOutputNames(request.scene.contacts.size(), directions);
+  for (std::string& name : SystemOutputNames(request.scene.system, directions)) names.push_back(std::move(name));
   return names;
+}
+
+std::vector<double> NumbersOf(const AttainedOutcome& outcome) {
+  std::vector<double> numbers = outcome.contact_velocity_m_s;
+  numbers.insert(numbers.end(), outcome.velocity.begin(), outcome.velocity.end());
+  return numbers;
 }
 
 std::string MultiContactText(const MultiContactRequest& request, const MultiContactResponse& response) {

@@ -17,8 +17,12 @@ std::string MultiContactText(const MultiContactRequest& request, const MultiCont
 // One row for each outcome and sample, and for each end of the bounds.
 std::string MultiContactCsv(const MultiContactRequest& request, const MultiContactResponse& response);
 
-// The names of the numbers of an outcome: its contact velocities, and the velocities of the system if they are others.
-std::vector<std::string> OutputNames(const MultiContactRequest& request, const AttainedOutcome& outcome);
+// The names of the numbers of an outcome, which the answer's bounds begin with: its contact velocities, and the
+// velocities of the system if they are others.
+std::vector<std::string> OutputNames(const MultiContactRequest& request);
+
+// The numbers that have these names.
+std::vector<double> NumbersOf(const AttainedOutcome& outcome);
 
 // The strike of planar bodies, the outcomes of the first state as points on the bars of what is possible, and the
 // outcomes of springs over the stiffness, if a range of it was asked for.
