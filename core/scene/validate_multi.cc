@@ -94,9 +94,10 @@ void CheckSystem(const Mechanism& mechanism, const MultiContactScene& scene, Che
 
 // --- Contacts ---
 
-void CheckBodyNumber(const std::string& field, int32_t number, int32_t least, size_t bodies, Check& check) {
-  check.Require(number >= least && number <= static_cast<int64_t>(bodies), [&] {
-    return MakeViolation(field, absl::StrCat("= ", number), absl::StrCat("be in [", least, ", ", bodies, "]"));
+// Checks the number of a body or a contact.
+void CheckOrdinal(const std::string& field, int32_t number, int32_t least, size_t most, Check& check) {
+  check.Require(number >= least && number <= static_cast<int64_t>(most), [&] {
+    return MakeViolation(field, absl::StrCat("= ", number), absl::StrCat("be in [", least, ", ", most, "]"));
   });
 }
 
@@ -113,8 +114,8 @@ void CheckPlace(const MultiContactScene& scene, size_t index, Check& check) {
     });
     return;
   }
-  CheckBodyNumber(name("body"), contact.body, 1, free->bodies.size(), check);
-  CheckBodyNumber(name("other_body"), contact.other_body, 0, free->bodies.size(), check);
+  CheckOrdinal(name("body"), contact.body, 1, free->bodies.size(), check);
+  CheckOrdinal(name("other_body"), contact.other_body, 0, free->bodies.size(), check);
   check.Require(contact.body != contact.other_body || contact.body == 0, [&] {
     return MakeViolation(name("other_body"), absl::StrCat("= ", contact.other_body), "be another than body");
   });
@@ -187,9 +188,10 @@ void CheckSpread(const MultiReduction& reduction, Check& check) {
 
 // The velocities of bodies and mechanisms lie in the range of their W, up to what rounding makes of W where masses
 // differ much. Bounds of possible outcomes allow for that much. Beyond it W has lost the larger masses.
-void CheckRange(const std::string& field, const MultiReduction& reduction, const Eigen::VectorXd& velocity,
-                bool is_derived, Check& check) {
-  const double most = is_derived ? 0x1p-20 : 64.0 * static_cast<double>(reduction.w.rows()) * kEpsilon;
+void CheckRange(const std::string& field, const MultiContactScene& scene, const MultiReduction& reduction,
+                const Eigen::VectorXd& velocity, Check& check) {
+  const bool is_stated = std::holds_alternative<ContactMatrix>(scene.system);
+  const double most = is_stated ? 64.0 * static_cast<double>(reduction.w.rows()) * kEpsilon : 0x1p-20;
   const Eigen::VectorXd sizes = reduction.jacobian.cwiseAbs() * velocity.cwiseAbs();
   const double outside = DistanceFromRange(reduction.w, reduction.ContactVelocity(velocity), sizes);
   check.Require(outside <= most, [&] {
@@ -198,9 +200,6 @@ void CheckRange(const std::string& field, const MultiReduction& reduction, const
                          "lie in it, no impulse changes the rest");
   });
 }
-
-// True if W is computed from masses.
-bool IsDerived(const MultiContactScene& scene) { return !std::holds_alternative<ContactMatrix>(scene.system); }
 
 // Names the field that a scene states its velocity with.
 struct VelocityField {
@@ -230,10 +229,7 @@ void CheckMethods(const MultiContactRequest& request, int directions, Check& che
   const StiffnessRange& range = *request.stiffness_range;
   const std::string why_not = WhyNot(MultiContactMethod::kSprings, directions, contacts);
   check.Require(why_not.empty(), [&] { return Violation{"stiffness_range", "is set: " + why_not}; });
-  check.Require(range.contact >= 1 && range.contact <= contacts, [&] {
-    return MakeViolation("stiffness_range.contact", absl::StrCat("= ", range.contact),
-                         absl::StrCat("be in [1, ", contacts, "]"));
-  });
+  CheckOrdinal("stiffness_range.contact", range.contact, 1, request.scene.contacts.size(), check);
   check.Number(NumberPath{"stiffness_range", -1, "low"}, range.low, NumberRule::kPositive);
   check.Number(NumberPath{"stiffness_range", -1, "high"}, range.high, NumberRule::kPositive);
   check.Require(!(range.low > 0.0 && range.high > 0.0) ||
@@ -249,13 +245,11 @@ void CheckMethods(const MultiContactRequest& request, int directions, Check& che
 // Returns whether the list keeps the rules.
 bool CheckList(const std::string& field, const std::vector<double>& list, size_t size, Check& check) {
   if (!check.Length(field, list.size(), size)) return false;
-  bool keeps = true;
   for (size_t i = 0; i < size; ++i) {
-    const bool is_finite = std::isfinite(list[i]);
-    check.Require(is_finite, [&] { return MakeViolation(absl::StrCat(field, "[", i, "]"), list[i], "be finite"); });
-    keeps = keeps && is_finite;
+    check.Require(std::isfinite(list[i]),
+                  [&] { return MakeViolation(absl::StrCat(field, "[", i, "]"), list[i], "be finite"); });
   }
-  return keeps;
+  return AllFinite(list);
 }
 
 // Checks lists that have one number for each velocity of the system.
@@ -264,7 +258,7 @@ void CheckLists(const MultiContactRequest& request, const MultiReduction& reduct
   for (size_t i = 0; i < request.states.size() && !check.IsFull(); ++i) {
     if (!CheckList(Entry("states", i, "velocity"), request.states[i].velocity, size, check)) continue;
     const Eigen::Map<const Eigen::VectorXd> velocity(request.states[i].velocity.data(), reduction.velocity.size());
-    CheckRange(Entry("states", i, "velocity"), reduction, velocity, IsDerived(request.scene), check);
+    CheckRange(Entry("states", i, "velocity"), request.scene, reduction, velocity, check);
   }
   const int directions = reduction.directions;
   std::set<std::string> names;
@@ -296,20 +290,13 @@ const char* NameOf(MultiContactMethod method) {
 }
 
 std::string WhyNot(MultiContactMethod method, int directions, int contacts) {
-  switch (method) {
-    case MultiContactMethod::kOrders:
-      if (contacts > kMostContactsInOrders) {
-        return absl::StrCat("orders are searched for at most ", kMostContactsInOrders, " contacts");
-      }
-      return "";
-    case MultiContactMethod::kSprings:
-      return directions == 3 ? "springs are computed in a plane only" : "";
-    case MultiContactMethod::kPossible:
-      return "";
-    case MultiContactMethod::kUnspecified:
-      break;
+  const auto& all = kMultiContactMethods;
+  if (std::find(all.begin(), all.end(), method) == all.end()) return "must be orders, springs or possible";
+  if (method == MultiContactMethod::kOrders && contacts > kMostContactsInOrders) {
+    return absl::StrCat("orders are searched for at most ", kMostContactsInOrders, " contacts");
   }
-  return "must be orders, springs or possible";
+  if (method == MultiContactMethod::kSprings && directions == 3) return "springs are computed in a plane only";
+  return "";
 }
 
 std::vector<Violation> Validate(const MultiContactRequest& request, std::optional<MultiReduction>& reduction) {
@@ -326,7 +313,7 @@ std::vector<Violation> Validate(const MultiContactRequest& request, std::optiona
     if (matrix != nullptr) CheckMatrix(*matrix, *reduction, check);
     CheckSpread(*reduction, check);
     if (!check.failed()) {
-      CheckRange(std::visit(VelocityField(), scene.system), *reduction, reduction->velocity, IsDerived(scene), check);
+      CheckRange(std::visit(VelocityField(), scene.system), scene, *reduction, reduction->velocity, check);
     }
   }
   if (reduction->w.allFinite()) CheckLists(request, *reduction, check);
