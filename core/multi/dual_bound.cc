@@ -15,7 +15,7 @@ using Intervals = std::array<Interval, 3 * kMostContacts>;
 Intervals Times(const Eigen::MatrixXd& w, const Eigen::VectorXd& x) {
   Intervals product;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    Interval& sum = product[static_cast<size_t>(i)];
+    Interval& sum = product[At(i)];
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       if (x(j) != 0.0 && w(i, j) != 0.0) sum = sum + Interval(w(i, j)) * Interval(x(j));
     }
@@ -28,10 +28,10 @@ double LeastParting(const Problem& problem, const Eigen::VectorXd& x) {
   const Intervals moved = Times(problem.w, x);
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < problem.k; ++i) {
-    const Interval mu(problem.laws[static_cast<size_t>(i)].mu);
-    const auto t = static_cast<size_t>(problem.T(i));
+    const Interval mu(problem.laws[At(i)].mu);
+    const size_t t = At(problem.T(i));
     const Interval slip = problem.d == 2 ? Abs(moved[t]) : Sqrt(Square(moved[t]) + Square(moved[t + 1]));
-    least = std::min(least, (moved[static_cast<size_t>(problem.N(i))] - mu * slip).lower);
+    least = std::min(least, (moved[At(problem.N(i))] - mu * slip).lower);
   }
   return least;
 }
@@ -62,7 +62,7 @@ double DualBound(const Problem& problem, double root_energy, const Eigen::Vector
   Interval square(0.0), linear(0.0);
   double rest = 0.0;
   for (Eigen::Index i = 0; i < size; ++i) {
-    square = square + Interval(nearest(i)) * moved[static_cast<size_t>(i)];
+    square = square + Interval(nearest(i)) * moved[At(i)];
     linear = linear + Interval(pi(i)) * Interval(problem.v(i));
     const double terms = std::abs(pi(i)) + std::abs(gamma(i)) + std::abs(nearest(i));
     rest += 2.0 * kEpsilon * terms * std::sqrt(problem.w(i, i));

@@ -32,7 +32,7 @@ std::optional<Pair> PairOf(const Problem& problem, int i, int j, const Vector& v
   unit = Eigen::MatrixXd::Zero(v.size(), 2);
   for (int c = 0; c < 2; ++c) {
     const int contact = pair.contact(c);
-    const ContactLaw& law = problem.laws[static_cast<size_t>(contact)];
+    const ContactLaw& law = problem.laws[At(contact)];
     const double slip = v(problem.T(contact));
     if (law.mu > 0.0 && (problem.d == 3 || slip == 0.0)) return std::nullopt;
     pair.e(c) = law.e;
@@ -90,7 +90,7 @@ bool KeepsCourse(const Problem& problem, const Pair& pair, const Eigen::MatrixXd
   for (int contact = 0; contact < problem.k; ++contact) {
     const bool is_pair = contact == pair.contact(0) || contact == pair.contact(1);
     if (!is_pair && least(problem.N(contact), 1.0) < 0.0) return false;
-    if (!is_pair || problem.laws[static_cast<size_t>(contact)].mu == 0.0) continue;
+    if (!is_pair || problem.laws[At(contact)].mu == 0.0) continue;
     const int t = problem.T(contact);
     if (!(least(t, std::copysign(1.0, state.v(t))) > state.ErrorOf(problem, t))) return false;
   }
@@ -105,7 +105,7 @@ void AddWorks(const Problem& problem, const Pair& pair, Attained& state) {
   double first = 0.0;
   for (int hit = 0; hit < kMost; ++hit) {
     const int c = hit % 2 == 0 ? 1 : 0;
-    ContactWorks& works = state.works[static_cast<size_t>(pair.contact(c))];
+    ContactWorks& works = state.works[At(pair.contact(c))];
     const double speed = -v(c);
     if (!(speed > 0.0)) break;
     const double compression = 0.5 * speed * speed / pair.a(c, c);
@@ -172,7 +172,7 @@ bool CloseEndlessPair(const Problem& problem, int i, int j, double approach, Att
   for (int c = 0; c < 2; ++c) {
     const double impulse = (*impulses)(c);
     const int contact = pair->contact(c);
-    state.works[static_cast<size_t>(contact)].compression_impulse += impulse / (1.0 + pair->e(c));
+    state.works[At(contact)].compression_impulse += impulse / (1.0 + pair->e(c));
     state.p(problem.N(contact)) += impulse;
     if (pair->friction(c) != 0.0) state.p(problem.T(contact)) += pair->friction(c) * impulse;
   }

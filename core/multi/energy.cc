@@ -17,7 +17,7 @@ constexpr double kJamTolerance = 1e-15;
 // The ray of the cone of contact i that `moved` = W x parts least, scaled to a normal direction of length 1.
 Eigen::VectorXd LeastParted(const Problem& problem, int i, const Eigen::VectorXd& moved) {
   const int d = problem.d;
-  const double mu = problem.laws[static_cast<size_t>(i)].mu;
+  const double mu = problem.laws[At(i)].mu;
   Eigen::VectorXd ray = Eigen::VectorXd::Zero(moved.size());
   ray(problem.N(i)) = 1.0;
   const Eigen::VectorXd slip = moved.segment(problem.T(i), d - 1);
@@ -32,7 +32,7 @@ Eigen::VectorXd LeastParted(const Problem& problem, int i, const Eigen::VectorXd
 Eigen::VectorXd EnergyMetric::CoordinatesOf(const Eigen::VectorXd& v) const {
   Eigen::VectorXd coordinates(g.cols());
   for (Eigen::Index c = 0; c < coordinates.size(); ++c) {
-    const int row = pivots[static_cast<size_t>(c)];
+    const int row = pivots[At(c)];
     coordinates(c) = (v(row) - g.row(row).head(c).dot(coordinates.head(c))) / g(row, c);
   }
   return coordinates;
@@ -43,7 +43,7 @@ Eigen::VectorXd EnergyMetric::ImpulseFor(const Eigen::VectorXd& direction) const
   Eigen::VectorXd rest = direction;
   Eigen::VectorXd impulse = Eigen::VectorXd::Zero(g.rows());
   for (Eigen::Index c = rank; c-- > 0;) {
-    const int row = pivots[static_cast<size_t>(c)];
+    const int row = pivots[At(c)];
     impulse(row) = rest(c) / g(row, c);
     rest -= impulse(row) * g.row(row).transpose();
   }
@@ -122,7 +122,7 @@ Eigen::VectorXd PushApart(const Problem& problem) {
       for (Eigen::Index a = 0; a < count; ++a) {
         system(a, count) = system(count, a) = 1.0;
         for (Eigen::Index b = 0; b < count; ++b) {
-          system(a, b) = rays[static_cast<size_t>(a)].dot(problem.w * rays[static_cast<size_t>(b)]);
+          system(a, b) = rays[At(a)].dot(problem.w * rays[At(b)]);
         }
       }
       Eigen::VectorXd right = Eigen::VectorXd::Zero(count + 1);
@@ -130,7 +130,7 @@ Eigen::VectorXd PushApart(const Problem& problem) {
       const Eigen::VectorXd wanted = system.fullPivLu().solve(right);
       double step = 1.0;
       for (Eigen::Index a = 0; a < count; ++a) {
-        const double now = weights[static_cast<size_t>(a)];
+        const double now = weights[At(a)];
         if (wanted(a) <= 0.0 && now > wanted(a)) step = std::min(step, now / (now - wanted(a)));
       }
       for (size_t a = 0; a < weights.size(); ++a) {

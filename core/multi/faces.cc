@@ -28,7 +28,7 @@ class Search {
     for (int i = 0; i < problem.k; ++i) {
       const Point n = metric.g.row(problem.N(i));
       const Point t = metric.g.row(problem.T(i));
-      const double mu = problem.laws[static_cast<size_t>(i)].mu;
+      const double mu = problem.laws[At(i)].mu;
       for (const double side : {mu, -mu}) {
         Eigen::VectorXd impulse = Eigen::VectorXd::Zero(problem.v.size());
         impulse(problem.N(i)) = 1.0;

@@ -9,7 +9,7 @@ namespace {
 
 // The numbers of a contact that neither its place nor the sense of its tangential directions changes.
 std::vector<double> KeyOf(const Problem& problem, int i) {
-  const ContactLaw& law = problem.laws[static_cast<size_t>(i)];
+  const ContactLaw& law = problem.laws[At(i)];
   std::vector<double> key = {problem.v(problem.N(i)), law.mu, law.e, law.stiffness};
   for (int a = 0; a < problem.d; ++a) {
     key.push_back(std::abs(problem.v(problem.T(i) + a)));
@@ -44,14 +44,14 @@ class MirrorSearch {
 
   // Assigns an image to each contact from `i` on, with images that are other contacts first. True if that works.
   bool Assign(int i, bool moved) {
-    while (i < problem_.k && mirror_.image[Place(i)] >= 0) ++i;
+    while (i < problem_.k && mirror_.image[At(i)] >= 0) ++i;
     if (i == problem_.k) return moved;
     for (int j = problem_.k - 1; j >= i; --j) {
-      if (mirror_.image[Place(j)] >= 0 || keys_[Place(i)] != keys_[Place(j)]) continue;
+      if (mirror_.image[At(j)] >= 0 || keys_[At(i)] != keys_[At(j)]) continue;
       for (const double sign : {1.0, -1.0}) {
         Set(i, j, sign);
         if (Fits(i) && Fits(j) && Assign(i + 1, moved || i != j || sign < 0.0)) return true;
-        mirror_.image[Place(i)] = mirror_.image[Place(j)] = -1;
+        mirror_.image[At(i)] = mirror_.image[At(j)] = -1;
       }
     }
     return false;
@@ -60,21 +60,20 @@ class MirrorSearch {
   const Mirror& mirror() const { return mirror_; }
 
  private:
-  static size_t Place(int i) { return static_cast<size_t>(i); }
   void Set(int i, int j, double sign) {
-    mirror_.image[Place(i)] = j;
-    mirror_.image[Place(j)] = i;
-    mirror_.sign[Place(i)] = mirror_.sign[Place(j)] = sign;
+    mirror_.image[At(i)] = j;
+    mirror_.image[At(j)] = i;
+    mirror_.sign[At(i)] = mirror_.sign[At(j)] = sign;
   }
   // True if the block of W and the velocity of contact i are those of its image, with all contacts that have one.
   bool Fits(int i) const {
-    const int image = mirror_.image[Place(i)];
-    const double sign = mirror_.sign[Place(i)];
+    const int image = mirror_.image[At(i)];
+    const double sign = mirror_.sign[At(i)];
     if (problem_.v(2 * i) != sign * problem_.v(2 * image)) return false;
     for (int j = 0; j < problem_.k; ++j) {
-      const int other = mirror_.image[Place(j)];
+      const int other = mirror_.image[At(j)];
       if (other < 0) continue;
-      const double turn = mirror_.sign[Place(j)];
+      const double turn = mirror_.sign[At(j)];
       const auto w = [&](int a, int b) { return problem_.w(2 * i + a, 2 * j + b); };
       const auto of_image = [&](int a, int b) { return problem_.w(2 * image + a, 2 * other + b); };
       if (w(0, 0) != sign * turn * of_image(0, 0) || w(0, 1) != sign * of_image(0, 1) ||
@@ -95,24 +94,23 @@ class MirrorSearch {
 void Mirror::Average(Vector& x) const {
   const Vector before = x;
   for (int i = 0; i < x.size() / 2; ++i) {
-    const int other = image[static_cast<size_t>(i)];
-    x(2 * i) = 0.5 * (before(2 * i) + sign[static_cast<size_t>(i)] * before(2 * other));
+    const int other = image[At(i)];
+    x(2 * i) = 0.5 * (before(2 * i) + sign[At(i)] * before(2 * other));
     x(2 * i + 1) = 0.5 * (before(2 * i + 1) + before(2 * other + 1));
   }
 }
 
 void Mirror::Average(std::array<double, kMostContacts>& x) const {
   const std::array<double, kMostContacts> before = x;
-  for (size_t i = 0; i < x.size(); ++i) x[i] = 0.5 * (before[i] + before[static_cast<size_t>(image[i])]);
+  for (size_t i = 0; i < x.size(); ++i) x[i] = 0.5 * (before[i] + before[At(image[i])]);
 }
 
 Vector SortedProblem::InScene(const Vector& sorted) const {
   const int d = problem.d;
   Vector x(sorted.size());
   for (int i = 0; i < problem.k; ++i) {
-    const auto place = static_cast<size_t>(i);
-    x.segment(d * from[place], d) = sorted.segment(d * i, d);
-    if (d == 2) x(2 * from[place]) *= sign[place];
+    x.segment(d * from[At(i)], d) = sorted.segment(d * i, d);
+    if (d == 2) x(2 * from[At(i)]) *= sign[At(i)];
   }
   return x;
 }
@@ -121,9 +119,8 @@ Vector SortedProblem::FromScene(const Vector& scene) const {
   const int d = problem.d;
   Vector x(scene.size());
   for (int i = 0; i < problem.k; ++i) {
-    const auto place = static_cast<size_t>(i);
-    x.segment(d * i, d) = scene.segment(d * from[place], d);
-    if (d == 2) x(2 * i) *= sign[place];
+    x.segment(d * i, d) = scene.segment(d * from[At(i)], d);
+    if (d == 2) x(2 * i) *= sign[At(i)];
   }
   return x;
 }
@@ -144,17 +141,17 @@ SortedProblem Sort(const Problem& problem) {
   SortedProblem sorted = {.problem = {.d = d, .k = problem.k, .w = problem.w, .v = problem.v, .laws = {}}};
   std::iota(sorted.from.begin(), sorted.from.end(), 0);
   std::stable_sort(sorted.from.begin(), sorted.from.begin() + problem.k,
-                   [&](int i, int j) { return keys[static_cast<size_t>(i)] < keys[static_cast<size_t>(j)]; });
+                   [&](int i, int j) { return keys[At(i)] < keys[At(j)]; });
   Vector turn = Vector::Ones(problem.v.size());
   for (int i = 0; i < problem.k; ++i) {
-    const int from = sorted.from[static_cast<size_t>(i)];
+    const int from = sorted.from[At(i)];
     const double sign = d == 2 ? SignOf(problem, from) : 1.0;
-    sorted.sign[static_cast<size_t>(i)] = sign;
+    sorted.sign[At(i)] = sign;
     turn(d * i) = sign;
-    sorted.problem.laws.push_back(problem.laws[static_cast<size_t>(from)]);
+    sorted.problem.laws.push_back(problem.laws[At(from)]);
     sorted.problem.v.segment(d * i, d) = problem.v.segment(d * from, d);
     for (int j = 0; j < problem.k; ++j) {
-      const int other = sorted.from[static_cast<size_t>(j)];
+      const int other = sorted.from[At(j)];
       sorted.problem.w.block(d * i, d * j, d, d) = problem.w.block(d * from, d * other, d, d);
     }
   }

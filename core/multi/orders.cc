@@ -98,7 +98,7 @@ class Search {
     state.v.segment(t, d) = impact.velocity;
     state.slack.segment(t, d).array() += impact.velocity_error;
     state.p.segment(t, d) += impact.impulse;
-    ContactWorks& works = state.works[static_cast<size_t>(i)];
+    ContactWorks& works = state.works[At(i)];
     works.compression += impact.works.compression;
     works.restitution += impact.works.restitution;
     works.friction += impact.works.friction;
@@ -114,7 +114,7 @@ class Search {
       if (v < -std::min(state.ErrorOf(problem_, problem_.N(i)), kRoundingSpeed * scale_)) {
         contacts.push_back(i);
       } else {
-        left_out += (1.0 + problem_.laws[static_cast<size_t>(i)].e) * -v / roots_(problem_.N(i));
+        left_out += (1.0 + problem_.laws[At(i)].e) * -v / roots_(problem_.N(i));
       }
     }
     return contacts;

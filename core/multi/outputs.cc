@@ -13,7 +13,7 @@ std::vector<Output> OutputsOf(const MultiContactRequest& request, const MultiRed
   std::vector<std::string> names = ContactOutputNames(static_cast<size_t>(problem.k), problem.d);
   for (int row = 0; row < contact_velocity.size(); ++row) {
     Output& output = outputs.emplace_back();
-    output.name = names[static_cast<size_t>(row)];
+    output.name = names[At(row)];
     output.gamma = sorted.FromScene(Eigen::VectorXd::Unit(contact_velocity.size(), row));
     output.before = contact_velocity(row);
     output.mobility = output.gamma.dot(problem.w * output.gamma);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -24,6 +25,9 @@ inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // At most 16 contacts in space have 48 numbers, which lie in place.
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign, 3 * kMostContacts, 1>;
+
+// The place of a contact, or of one of its numbers, in an array.
+inline size_t At(Eigen::Index i) { return static_cast<size_t>(i); }
 
 struct ContactLaw {
   double mu = 0.0;         // >= 0

@@ -155,7 +155,7 @@ SingleImpact SolveSingleImpact(const Problem& problem, int i, const ContactVecto
   const auto d = problem.d;
   const ContactBlock w = problem.w.block(d * i, d * i, d, d);
   const ContactVector x = InRange(w, velocity);
-  const ContactLaw& law = problem.laws[static_cast<size_t>(i)];
+  const ContactLaw& law = problem.laws[At(i)];
   SingleImpact single = SolveOne(w, law, x);
   if (single.ended) SetDerivative(w, law, x, single);
   return single;

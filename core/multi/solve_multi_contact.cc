@@ -62,7 +62,7 @@ std::string OrderText(const std::vector<int>& order, int repeats_from, const Sor
     if (i == kMostInText) return text + "-...";
     if (i > 0) text += '-';
     if (static_cast<int>(i) == repeats_from) text += '(';
-    absl::StrAppend(&text, sorted.from[static_cast<size_t>(order[i])] + 1);
+    absl::StrAppend(&text, sorted.from[At(order[i])] + 1);
   }
   if (repeats_from >= 0) text += ')';
   return text.empty() ? "none" : text;
@@ -179,7 +179,7 @@ class Answerer {
     outcome.normal_impulse_error_n_s.resize(static_cast<size_t>(problem.k));
     outcome.contacts.resize(static_cast<size_t>(problem.k));
     for (int i = 0; i < problem.k; ++i) {
-      const auto place = static_cast<size_t>(sorted_.from[static_cast<size_t>(i)]);
+      const size_t place = At(sorted_.from[At(i)]);
       outcome.normal_impulse_error_n_s[place] = KnownError(attained.ErrorOfNormalImpulse(problem, i) * ImpulseScale());
       outcome.contacts[place] = LedgerOf(attained, i);
     }
@@ -206,7 +206,7 @@ class Answerer {
 
   ContactLedger LedgerOf(const Attained& attained, int i) const {
     const Problem& problem = sorted_.problem;
-    const ContactWorks& works = attained.works[static_cast<size_t>(i)];
+    const ContactWorks& works = attained.works[At(i)];
     ContactLedger ledger = {.work_compression_j = works.compression * EnergyScale(),
                             .work_restitution_j = works.restitution * EnergyScale(),
                             .work_friction_j = works.friction * EnergyScale()};
@@ -249,8 +249,8 @@ class Answerer {
     const auto at = [&](double stiffness) {
       Problem problem = sorted_.problem;
       for (int i = 0; i < problem.k; ++i) {
-        const bool is_driven = sorted_.from[static_cast<size_t>(i)] + 1 == request_.stiffness_range->contact;
-        if (is_driven) problem.laws[static_cast<size_t>(i)].stiffness = stiffness;
+        const bool is_driven = sorted_.from[At(i)] + 1 == request_.stiffness_range->contact;
+        if (is_driven) problem.laws[At(i)].stiffness = stiffness;
       }
       return OutcomeOf(FindSprings(problem, MirrorOf(problem), stopped_));
     };

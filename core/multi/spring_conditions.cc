@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 namespace ricochet::multi {
 namespace {
-
-size_t At(int i) { return static_cast<size_t>(i); }
 
 // Sets a coefficient to 0 that an event made 0. It may exceed rounding where another mode divides friction differently.
 void TakeForZero(size_t m, Series& series) {

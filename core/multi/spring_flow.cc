@@ -67,10 +67,10 @@ SpringFlow::SpringFlow(const Problem& problem, const Modes& modes, const SpringS
                        const Vector& v_noise)
     : k_(problem.k), modes_(modes) {
   for (int i = 0; i < k_; ++i) {
-    const ContactLaw& law = problem.laws[static_cast<size_t>(i)];
-    const NormalMode mode = modes_[static_cast<size_t>(i)].normal;
-    if (mode == NormalMode::kLoading) stiffness_[static_cast<size_t>(i)] = law.stiffness;
-    if (mode == NormalMode::kUnloading) stiffness_[static_cast<size_t>(i)] = law.stiffness / (law.e * law.e);
+    const ContactLaw& law = problem.laws[At(i)];
+    const NormalMode mode = modes_[At(i)].normal;
+    if (mode == NormalMode::kLoading) stiffness_[At(i)] = law.stiffness;
+    if (mode == NormalMode::kUnloading) stiffness_[At(i)] = law.stiffness / (law.e * law.e);
   }
   SetFriction(problem, state, v);
   SetStep(problem, state, v);
@@ -83,15 +83,15 @@ void SpringFlow::SetStick(const Problem& problem, const Vector& weights) {
   std::array<int, kMostContacts> sticking;
   int count = 0;
   for (int i = 0; i < k_; ++i) {
-    const bool sticks = IsClosed(i) && modes_[static_cast<size_t>(i)].slip == 0 && weights(i) > 0.0;
-    if (sticks && problem.w(2 * i, 2 * i) > 0.0) sticking[static_cast<size_t>(count++)] = i;
+    const bool sticks = IsClosed(i) && modes_[At(i)].slip == 0 && weights(i) > 0.0;
+    if (sticks && problem.w(2 * i, 2 * i) > 0.0) sticking[At(count++)] = i;
   }
   if (count == 0) return;
   Square matrix(count, count);
   Square driven(count, k_);  // Minus the slip accelerations by the forces, without the friction of these contacts.
   for (int a = 0; a < count; ++a) {
-    const int i = sticking[static_cast<size_t>(a)];
-    for (int b = 0; b < count; ++b) matrix(a, b) = problem.w(2 * i, 2 * sticking[static_cast<size_t>(b)]);
+    const int i = sticking[At(a)];
+    for (int b = 0; b < count; ++b) matrix(a, b) = problem.w(2 * i, 2 * sticking[At(b)]);
     for (int j = 0; j < k_; ++j) {
       double sum = 0.0;
       if (IsClosed(j)) sum = problem.w(2 * i, 2 * j + 1) + problem.w(2 * i, 2 * j) * friction_(j, j);
@@ -110,7 +110,7 @@ void SpringFlow::SetStick(const Problem& problem, const Vector& weights) {
   } else {
     split_is_free_ = true;
     Vector roots(count);
-    for (int a = 0; a < count; ++a) roots(a) = std::sqrt(weights(sticking[static_cast<size_t>(a)]));
+    for (int a = 0; a < count; ++a) roots(a) = std::sqrt(weights(sticking[At(a)]));
     const Eigen::MatrixXd weighted = roots.asDiagonal() * matrix * roots.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted);
     Vector inverse = solver.eigenvalues();
@@ -120,7 +120,7 @@ void SpringFlow::SetStick(const Problem& problem, const Vector& weights) {
                (solver.eigenvectors() *
                 (inverse.asDiagonal() * (solver.eigenvectors().transpose() * (roots.asDiagonal() * driven))));
   }
-  for (int a = 0; a < count; ++a) friction_.row(sticking[static_cast<size_t>(a)]) = solution.row(a);
+  for (int a = 0; a < count; ++a) friction_.row(sticking[At(a)]) = solution.row(a);
 }
 
 void SpringFlow::SetFriction(const Problem& problem, const SpringState& state, const Vector& v) {
@@ -128,20 +128,18 @@ void SpringFlow::SetFriction(const Problem& problem, const SpringState& state, c
   Vector weights = Vector::Zero(k_);
   Vector slides = Vector::Zero(k_);  // mu sqrt(stiffness) of the contacts that slip
   for (int i = 0; i < k_; ++i) {
-    const auto place = static_cast<size_t>(i);
-    const double mu = problem.laws[place].mu;
+    const double mu = problem.laws[At(i)].mu;
     if (!IsClosed(i) || mu == 0.0) continue;
-    friction_(i, i) = -mu * modes_[place].slip;
-    if (modes_[place].slip != 0) slides(i) = mu * std::sqrt(stiffness_[place]);
-    weights(i) = mu * (state.f[place] > 0.0 ? state.f[place] : stiffness_[place] * std::abs(v(2 * i + 1)));
+    friction_(i, i) = -mu * modes_[At(i)].slip;
+    if (modes_[At(i)].slip != 0) slides(i) = mu * std::sqrt(stiffness_[At(i)]);
+    weights(i) = mu * (state.f[At(i)] > 0.0 ? state.f[At(i)] : stiffness_[At(i)] * std::abs(v(2 * i + 1)));
     if (weights(i) == 0.0) weights(i) = std::numeric_limits<double>::min();
   }
   SetStick(problem, weights);
   by_force_ = Tall::Zero(2 * k_, k_);
   size_ = Tall::Zero(2 * k_, k_);
   for (int row = 0; row < 2 * k_; ++row) {
-    const auto contact = static_cast<size_t>(row / 2);
-    const bool sticks = row % 2 == 0 && weights(row / 2) > 0.0 && modes_[contact].slip == 0;
+    const bool sticks = row % 2 == 0 && weights(row / 2) > 0.0 && modes_[At(row / 2)].slip == 0;
     for (int j = 0; j < k_; ++j) {
       if (!IsClosed(j) || sticks) continue;
       double sum = problem.w(row, 2 * j + 1);
@@ -180,7 +178,7 @@ void SpringFlow::SetStep(const Problem& problem, const SpringState& state, const
   h_ = 1.0;  // This holds unless a gap closes, because nothing else limits the step.
   bool closes = false;
   for (int i = 0; i < k_; ++i) {
-    const double gap = state.g[static_cast<size_t>(i)];
+    const double gap = state.g[At(i)];
     if (!(v(2 * i + 1) < 0.0 && gap > 0.0)) continue;
     const double step = 2.0 * gap / -v(2 * i + 1);
     h_ = closes ? std::min(h_, step) : step;
@@ -190,15 +188,14 @@ void SpringFlow::SetStep(const Problem& problem, const SpringState& state, const
 
 void SpringFlow::Expand(const SpringState& state, const Vector& v, const Vector& v_noise) {
   for (int row = 0; row < 2 * k_; ++row) {
-    v_[static_cast<size_t>(row)].c[0] = v(row);
-    v_[static_cast<size_t>(row)].noise[0] = v_noise(row);
+    v_[At(row)].c[0] = v(row);
+    v_[At(row)].noise[0] = v_noise(row);
   }
   for (int i = 0; i < k_; ++i) {
-    const auto place = static_cast<size_t>(i);
-    f_[place].c[0] = state.f[place];
-    f_[place].noise[0] = 16.0 * kEpsilon * std::max(state.f[place], state.largest_f[place]);
-    g_[place].c[0] = state.g[place];
-    g_[place].noise[0] = 8.0 * kEpsilon * state.g[place];
+    f_[At(i)].c[0] = state.f[At(i)];
+    f_[At(i)].noise[0] = 16.0 * kEpsilon * std::max(state.f[At(i)], state.largest_f[At(i)]);
+    g_[At(i)].c[0] = state.g[At(i)];
+    g_[At(i)].noise[0] = 8.0 * kEpsilon * state.g[At(i)];
   }
   for (size_t m = 0; m < kSeriesOrder; ++m) {
     const double factor = h_ / static_cast<double>(m + 1);
@@ -207,21 +204,20 @@ void SpringFlow::Expand(const SpringState& state, const Vector& v, const Vector&
       for (int j = 0; j < k_; ++j) {
         const double by = by_force_(row, j);
         if (by == 0.0) continue;
-        const Series& force = f_[static_cast<size_t>(j)];
+        const Series& force = f_[At(j)];
         sum += by * force.c[m];
         noise += size_(row, j) * (force.noise[m] + 16.0 * kEpsilon * std::abs(force.c[m]));
       }
-      v_[static_cast<size_t>(row)].c[m + 1] = factor * sum;
-      v_[static_cast<size_t>(row)].noise[m + 1] = factor * noise;
+      v_[At(row)].c[m + 1] = factor * sum;
+      v_[At(row)].noise[m + 1] = factor * noise;
     }
     for (int i = 0; i < k_; ++i) {
-      const auto place = static_cast<size_t>(i);
-      const Series& normal = v_[2 * place + 1];
-      const double by = factor * (IsClosed(i) ? -stiffness_[place] : 0.0);
-      f_[place].c[m + 1] = by * normal.c[m];
-      f_[place].noise[m + 1] = std::abs(by) * normal.noise[m];
-      g_[place].c[m + 1] = IsClosed(i) ? 0.0 : factor * normal.c[m];
-      g_[place].noise[m + 1] = IsClosed(i) ? 0.0 : factor * normal.noise[m];
+      const Series& normal = v_[At(2 * i + 1)];
+      const double by = factor * (IsClosed(i) ? -stiffness_[At(i)] : 0.0);
+      f_[At(i)].c[m + 1] = by * normal.c[m];
+      f_[At(i)].noise[m + 1] = std::abs(by) * normal.noise[m];
+      g_[At(i)].c[m + 1] = IsClosed(i) ? 0.0 : factor * normal.c[m];
+      g_[At(i)].noise[m + 1] = IsClosed(i) ? 0.0 : factor * normal.noise[m];
     }
   }
 }
@@ -233,7 +229,7 @@ Series SpringFlow::Friction(int i) const {
   for (int j = 0; j < k_; ++j) {
     const double by = friction_(i, j);
     if (by == 0.0) continue;
-    const Series& force = f_[static_cast<size_t>(j)];
+    const Series& force = f_[At(j)];
     for (size_t m = 0; m <= kSeriesOrder; ++m) {
       tau.c[m] += by * force.c[m];
       tau.noise[m] += std::abs(by) * (force.noise[m] + 64.0 * kEpsilon * std::abs(force.c[m]));

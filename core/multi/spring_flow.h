@@ -60,7 +60,7 @@ class SpringFlow {
 
   double h() const { return h_; }
   // The stiffness of the contact in its mode.
-  double stiffness(int i) const { return stiffness_[static_cast<size_t>(i)]; }
+  double stiffness(int i) const { return stiffness_[At(i)]; }
   // True if the tangential forces of contacts that stick are one choice of many.
   bool split_is_free() const { return split_is_free_; }
   // The rate at which friction may let an error of the state grow, in the metric of energy.
@@ -72,13 +72,13 @@ class SpringFlow {
   double TangentialByForce(int i, int j) const { return by_force_(Eigen::Index{2} * i, j); }
   double FrictionByForce(int i, int j) const { return friction_(i, j); }
 
-  const Series& velocity(int row) const { return v_[static_cast<size_t>(row)]; }
-  const Series& force(int i) const { return f_[static_cast<size_t>(i)]; }
-  const Series& gap(int i) const { return g_[static_cast<size_t>(i)]; }
+  const Series& velocity(int row) const { return v_[At(row)]; }
+  const Series& force(int i) const { return f_[At(i)]; }
+  const Series& gap(int i) const { return g_[At(i)]; }
   Series Friction(int i) const;
 
  private:
-  bool IsClosed(int i) const { return modes_[static_cast<size_t>(i)].normal != NormalMode::kOpen; }
+  bool IsClosed(int i) const { return modes_[At(i)].normal != NormalMode::kOpen; }
   void SetFriction(const Problem& problem, const SpringState& state, const Vector& v);
   void SetStick(const Problem& problem, const Vector& weights);
   void SetStep(const Problem& problem, const SpringState& state, const Vector& v);

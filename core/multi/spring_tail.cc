@@ -31,9 +31,7 @@ double LeastOnSimplex(const Eigen::MatrixXd& b) {
 
 double BetaOf(const Problem& problem) {
   Eigen::MatrixXd b(problem.k, problem.k);
-  const auto drag = [&problem](int i, int j) {
-    return problem.laws[static_cast<size_t>(j)].mu * std::abs(problem.w(2 * i + 1, 2 * j));
-  };
+  const auto drag = [&problem](int i, int j) { return problem.laws[At(j)].mu * std::abs(problem.w(2 * i + 1, 2 * j)); };
   for (int i = 0; i < problem.k; ++i) {
     for (int j = 0; j < problem.k; ++j) {
       b(i, j) = problem.w(2 * i + 1, 2 * j + 1) - std::max(drag(i, j), drag(j, i));

@@ -25,8 +25,6 @@ constexpr int kMostRepeated = 4;
 // Combinations of modes that are tried where changing one mode after the other does not settle.
 constexpr int64_t kMostModes = 6561;
 
-size_t At(int i) { return static_cast<size_t>(i); }
-
 class Motion {
  public:
   Motion(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped)
@@ -148,7 +146,7 @@ class Motion {
       int64_t rest = number;
       for (int i = 0; i < k_; ++i) {
         const auto size = static_cast<int64_t>(options[At(i)].size());
-        modes_[At(i)] = options[At(i)][static_cast<size_t>(rest % size)];
+        modes_[At(i)] = options[At(i)][At(rest % size)];
         rest /= size;
       }
       MakeFlow();
