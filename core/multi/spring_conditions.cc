@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace ricochet::multi {
 namespace {
@@ -14,72 +13,57 @@ void TakeForZero(size_t m, Series& series) {
   if (std::abs(series.c[m]) <= kZeroOfEvent * largest) series.c[m] = 0.0;
 }
 
-class Collector {
- public:
-  explicit Collector(const std::optional<Event>& event) : event_(event) {}
+}  // namespace
 
+std::vector<Condition> ConditionsOf(const Problem& problem, const Modes& modes, const SpringFlow& flow,
+                                    const std::optional<Event>& event) {
+  std::vector<Condition> conditions;
   // Adds the condition that `sign` times the series stays >= 0.
-  void Add(int contact, Keeps keeps, double sign, const Series& series) {
-    Condition& condition = conditions_.emplace_back(Condition{.contact = contact, .keeps = keeps, .series = series});
+  const auto add = [&](int contact, Keeps keeps, double sign, const Series& series) {
+    Condition& condition = conditions.emplace_back(Condition{.contact = contact, .keeps = keeps, .series = series});
     if (sign < 0.0) {
       for (double& c : condition.series.c) c = -c;
     }
-    const bool is_event = event_.has_value() && event_->contact == contact && event_->keeps == keeps;
-    const bool has_tie = event_.has_value() && event_->has_tie;
+    const bool is_event = event.has_value() && event->contact == contact && event->keeps == keeps;
+    const bool has_tie = event.has_value() && event->has_tie;
     const bool is_cone = keeps == Keeps::kConeAbove || keeps == Keeps::kConeBelow;
     if (is_event || (has_tie && is_cone)) TakeForZero(0, condition.series);
     // Where all friction is used up, slip starts without an acceleration.
     if (has_tie && keeps == Keeps::kSlip) TakeForZero(1, condition.series);
     condition.lead = condition.series.Lead();
-  }
-
-  // Adds the conditions of a contact that sticks: friction stays below mu F in both directions.
-  void AddCone(int contact, double mu, const Series& force, const Series& tau) {
-    Series above = force, below = force;
-    for (size_t m = 0; m <= kSeriesOrder; ++m) {
-      above.c[m] = mu * above.c[m] - tau.c[m];
-      below.c[m] = mu * below.c[m] + tau.c[m];
-      above.noise[m] = below.noise[m] = mu * above.noise[m] + tau.noise[m];
-    }
-    Add(contact, Keeps::kConeAbove, 1.0, above);
-    Add(contact, Keeps::kConeBelow, 1.0, below);
-  }
-
-  std::vector<Condition> Take() { return std::move(conditions_); }
-
- private:
-  const std::optional<Event>& event_;
-  std::vector<Condition> conditions_;
-};
-
-}  // namespace
-
-std::vector<Condition> ConditionsOf(const Problem& problem, const Modes& modes, const SpringFlow& flow,
-                                    const std::optional<Event>& event) {
-  Collector conditions(event);
+  };
   for (int i = 0; i < problem.k; ++i) {
     const ContactMode mode = modes[At(i)];
     switch (mode.normal) {
       case NormalMode::kOpen:
-        conditions.Add(i, Keeps::kGap, 1.0, flow.gap(i));
+        add(i, Keeps::kGap, 1.0, flow.gap(i));
         continue;
       case NormalMode::kLoading:
-        conditions.Add(i, Keeps::kApproaching, -1.0, flow.velocity(2 * i + 1));
+        add(i, Keeps::kApproaching, -1.0, flow.velocity(2 * i + 1));
         break;
       case NormalMode::kUnloading:
-        conditions.Add(i, Keeps::kParting, 1.0, flow.velocity(2 * i + 1));
-        conditions.Add(i, Keeps::kPressed, 1.0, flow.force(i));
+        add(i, Keeps::kParting, 1.0, flow.velocity(2 * i + 1));
+        add(i, Keeps::kPressed, 1.0, flow.force(i));
         break;
     }
     const double mu = problem.laws[At(i)].mu;
     if (mu == 0.0) continue;
     if (mode.slip != 0) {
-      conditions.Add(i, Keeps::kSlip, mode.slip, flow.velocity(2 * i));
-    } else {
-      conditions.AddCone(i, mu, flow.force(i), flow.Friction(i));
+      add(i, Keeps::kSlip, mode.slip, flow.velocity(2 * i));
+      continue;
     }
+    // Where a contact sticks, friction stays below mu F in both directions.
+    const Series tau = flow.Friction(i);
+    Series above = flow.force(i), below = flow.force(i);
+    for (size_t m = 0; m <= kSeriesOrder; ++m) {
+      above.c[m] = mu * above.c[m] - tau.c[m];
+      below.c[m] = mu * below.c[m] + tau.c[m];
+      above.noise[m] = below.noise[m] = mu * above.noise[m] + tau.noise[m];
+    }
+    add(i, Keeps::kConeAbove, 1.0, above);
+    add(i, Keeps::kConeBelow, 1.0, below);
   }
-  return conditions.Take();
+  return conditions;
 }
 
 bool Falls(const Condition& condition, const Problem& problem, const SpringState& state) {
