@@ -7,17 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "ricochet/solver.h"
 #include "tests/support/scenes/multi_contact_scenes.h"
 
 namespace ricochet {
 namespace {
-
-MultiContactAnswer AnswerTo(const MultiContactRequest& request) {
-  const absl::StatusOr<MultiContactResponse> response = LocalSolver().MultiContact(request);
-  EXPECT_TRUE(response.ok()) << response.status();
-  return response.ok() ? response->answers.front() : MultiContactAnswer();
-}
 
 const AttainedOutcome* OutcomeOf(const MultiContactAnswer& answer, const std::string& order) {
   for (const AttainedOutcome& outcome : answer.orders) {

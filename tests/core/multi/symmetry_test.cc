@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "ricochet/solver.h"
+#include "tests/support/scenes/multi_contact_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -56,12 +56,6 @@ MultiContactScene Mirrored(MultiContactScene scene) {
   return scene;
 }
 
-MultiContactAnswer AnswerTo(const MultiContactScene& scene) {
-  const absl::StatusOr<MultiContactResponse> response = LocalSolver().MultiContact({.scene = scene});
-  EXPECT_TRUE(response.ok()) << response.status();
-  return response.ok() ? response->answers.front() : MultiContactAnswer();
-}
-
 // -0 and 0 are the same number.
 void ExpectMirrored(const std::vector<double>& found, const std::vector<double>& image) {
   ASSERT_EQ(found.size(), image.size());
@@ -74,7 +68,7 @@ void ExpectMirrored(const std::vector<double>& found, const std::vector<double>&
 TEST(SymmetryTest, ASymmetricSceneHasSymmetricSpringsAndBounds) {
   std::mt19937_64 random(1);
   for (int number = 0; number < 1000; ++number) {
-    const MultiContactAnswer answer = AnswerTo(SymmetricScene(random));
+    const MultiContactAnswer answer = AnswerTo({.scene = SymmetricScene(random)});
     const AttainedOutcome& springs = *answer.springs;
     for (size_t pair = 0; pair < springs.contact_velocity_m_s.size(); pair += 4) {
       EXPECT_EQ(springs.contact_velocity_m_s[pair], -springs.contact_velocity_m_s[pair + 2]) << number;
@@ -99,8 +93,8 @@ TEST(SymmetryTest, TheMirrorImageOfASceneHasTheMirrorImageOfItsAnswer) {
     FreeBody& body = std::get<FreeBodies>(scene.system).bodies.front();
     body.linear_m_s[0] = Random(-1.0, 1.0, random);
     body.angular_rad_s = {Random(-1.0, 1.0, random)};
-    const MultiContactAnswer answer = AnswerTo(scene);
-    const MultiContactAnswer image = AnswerTo(Mirrored(scene));
+    const MultiContactAnswer answer = AnswerTo({.scene = scene});
+    const MultiContactAnswer image = AnswerTo({.scene = Mirrored(scene)});
     EXPECT_EQ(answer.verdict, image.verdict);
     ExpectMirrored(answer.springs->contact_velocity_m_s, image.springs->contact_velocity_m_s);
     ExpectMirrored(answer.springs->impulse_n_s, image.springs->impulse_n_s);
@@ -129,8 +123,8 @@ TEST(SymmetryTest, PermutingTheContactsPermutesTheAnswer) {
     std::shuffle(from.begin(), from.end(), random);
     MultiContactScene permuted = scene;
     for (size_t i = 0; i < from.size(); ++i) permuted.contacts[i] = scene.contacts[from[i]];
-    const MultiContactAnswer answer = AnswerTo(scene);
-    const MultiContactAnswer other = AnswerTo(permuted);
+    const MultiContactAnswer answer = AnswerTo({.scene = scene});
+    const MultiContactAnswer other = AnswerTo({.scene = permuted});
     EXPECT_EQ(answer.verdict, other.verdict);
     EXPECT_EQ(answer.difference, other.difference);
     EXPECT_EQ(answer.springs->velocity, other.springs->velocity);

@@ -1,13 +1,15 @@
-// Scenes of several contacts at once that people know: rows of balls, and a block that falls flat.
+// Scenes of several contacts at once that people know: rows of balls, and a block that falls flat; and their answers.
 
 #ifndef RICOCHET_TESTS_SUPPORT_SCENES_MULTI_CONTACT_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_SCENES_MULTI_CONTACT_SCENES_H_
+
+#include <gtest/gtest.h>
 
 #include <cstddef>
 #include <utility>
 #include <vector>
 
-#include "ricochet/multi_contact.h"
+#include "ricochet/solver.h"
 
 namespace ricochet {
 
@@ -66,6 +68,13 @@ inline MultiContactScene SpatialBox(double friction = 0.3, double energetic = 0.
     }
   }
   return scene;
+}
+
+// The answer to the first state, in this process. It is empty where the test has failed, because there is none.
+inline MultiContactAnswer AnswerTo(const MultiContactRequest& request) {
+  const absl::StatusOr<MultiContactResponse> response = LocalSolver().MultiContact(request);
+  EXPECT_TRUE(response.ok()) << response.status();
+  return response.ok() ? response->answers.front() : MultiContactAnswer();
 }
 
 }  // namespace ricochet
