@@ -32,14 +32,15 @@ bool GrowBy(int64_t points, const std::array<Tally, kKinds>& before, const std::
 bool CountsRegimes(const SweepSummary& before, const SweepSummary& after, const SweepChunk& chunk) {
   if (chunk.regimes.empty()) return true;
   std::array<Tally, kRegimeCount> by_regime = before.by_regime;
-  Tally inadmissible = before.inadmissible;
+  Tally inadmissible = before.inadmissible, not_converged = before.not_converged;
   for (size_t i = 0; i < chunk.regimes.size(); ++i) {
     const Tally point = {1, chunk.first_index + static_cast<int64_t>(i)};
     Tally& tally = by_regime[static_cast<size_t>(chunk.regimes[i])];
     tally = Joined(tally, point);
     if (chunk.statuses[i] == RowStatus::kInadmissible) inadmissible = Joined(inadmissible, point);
+    if (chunk.statuses[i] == RowStatus::kNotConverged) not_converged = Joined(not_converged, point);
   }
-  return by_regime == after.by_regime && inadmissible == after.inadmissible;
+  return by_regime == after.by_regime && inadmissible == after.inadmissible && not_converged == after.not_converged;
 }
 
 bool Counts(const SweepSummary& before, const SweepChunk& chunk) {
@@ -49,7 +50,8 @@ bool Counts(const SweepSummary& before, const SweepChunk& chunk) {
   if (!GrowBy(chunk.count, before.by_regime, after.by_regime, chunk)) return false;
   const int64_t valid = chunk.count - (after.by_regime[kInvalid].count - before.by_regime[kInvalid].count);
   return GrowBy(valid, before.by_model, after.by_model, chunk) &&
-         Grows(before.inadmissible, after.inadmissible, chunk) && CountsRegimes(before, after, chunk);
+         Grows(before.inadmissible, after.inadmissible, chunk) &&
+         Grows(before.not_converged, after.not_converged, chunk) && CountsRegimes(before, after, chunk);
 }
 
 }  // namespace

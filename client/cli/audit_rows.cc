@@ -174,6 +174,7 @@ absl::Status AuditAll(AuditTable& table, int64_t size, const AuditDataOptions& d
   bool is_first = true;
   while (true) {
     AuditRows rows = table.Next(rows_of_a_call);
+    if (absl::Status status = table.CheckEnd(); !status.ok()) return status;
     // Without rows there is still one call, which reports the errors of the scene.
     if (rows.lines.empty() && !is_first) break;
     is_first = false;

@@ -45,7 +45,7 @@ class Merger {
       : end_index_(*sweep.end_index),
         checker_(sweep),
         output_(std::move(output)),
-        invalid_(sweep),
+        doubtful_(sweep),
         progress_(rows_to_terminal) {}
 
   // Errors: DATA_LOSS for a shard that is not what its manifest says; CANCELLED; those of the system.
@@ -68,7 +68,7 @@ class Merger {
   absl::Status Finish() {
     if (absl::Status status = checker_.CheckEnd(); !status.ok()) return status;
     absl::Status written = output_.Commit();
-    if (written.ok()) std::fputs(invalid_.Text().c_str(), stderr);
+    if (written.ok()) std::fputs(doubtful_.Text().c_str(), stderr);
     return written;
   }
 
@@ -83,14 +83,14 @@ class Merger {
     const absl::StatusOr<SweepChunk> chunk = checker_.Accept(message);
     if (!chunk.ok()) return Damaged(shard, chunk.status());
     progress_.Update(chunk->points_done, chunk->points_total);
-    invalid_.Add(*chunk);
+    doubtful_.Add(*chunk);
     return output_.Write(*chunk);
   }
 
   int64_t end_index_;
   ChunkChecker checker_;
   SweepOutput output_;
-  InvalidCounts invalid_;
+  DoubtfulPoints doubtful_;
   Progress progress_;
 };
 

@@ -96,6 +96,7 @@ absl::Status NameColumns(const absl::Status& error, const std::vector<size_t>& c
 
 absl::Status Solve(CsvReader& reader, const Solver& solver, Solved& solved) {
   const CsvTable table = reader.Next(std::numeric_limits<size_t>::max());
+  if (absl::Status status = reader.CheckEnd(); !status.ok()) return status;
   const size_t count = table.lines.size();
   solved.outputs.assign(solved.setup.columns.size(), std::vector<double>(count));
   solved.lines = table.lines;
@@ -131,9 +132,13 @@ std::string SummaryText(const Solved& solved) {
   const int64_t invalid = summary.counts.by_regime[static_cast<size_t>(Regime::kInvalid)].count;
   const int64_t endless = std::count_if(solved.regimes.begin(), solved.regimes.end(),
                                         [](Regime regime) { return regime != Regime::kInvalid && !HasEnd(regime); });
+  int64_t inexact = 0;
+  for (size_t i = 0; i < solved.regimes.size(); ++i) {
+    inexact += solved.statuses[i] == RowStatus::kNotConverged && HasEnd(solved.regimes[i]) ? 1 : 0;
+  }
   std::string text = absl::StrCat(summary.counts.points, summary.counts.points == 1 ? " row, " : " rows, ", invalid,
                                   " without numbers, ", summary.counts.inadmissible.count, " inadmissible, ", endless,
-                                  " without an end or a solution\n");
+                                  " without an end or a solution, ", inexact, " less accurate than asked\n");
   for (const BadRow& bad : summary.bad_rows) {
     absl::StrAppend(&text, "  row ", bad.row, " (line ", solved.lines[static_cast<size_t>(bad.row)], "): ", bad.field,
                     bad.field.empty() ? "" : " ", bad.description, "\n");
@@ -175,7 +180,9 @@ std::string Text(const Solved& solved, Format format, size_t count) {
     absl::StrAppend(&text, ",\"summary\":", JsonOf(ToProto(solved.response.summary)), "}\n");
   } else if (format == Format::kText) {
     const size_t left_out = solved.regimes.size() - count;
-    if (left_out > 0) absl::StrAppend(&text, "... and ", left_out, " more rows; --format csv has them all\n");
+    if (left_out > 0)
+      absl::StrAppend(&text, "... and ", left_out, left_out == 1 ? " more row" : " more rows",
+                      "; --format csv has them all\n");
     absl::StrAppend(&text, "\n", SummaryText(solved));
   }
   return text;
@@ -211,7 +218,7 @@ absl::Status SolveData(const DataOptions& data, const CommonOptions& options, co
   const int64_t bad = BadRows(solved);
   if (!data.strict || bad == 0) return absl::OkStatus();
   return absl::FailedPreconditionError(
-      absl::StrCat(bad, " of ", solved.regimes.size(), " rows are not admissible or have no end"));
+      absl::StrCat(bad, " of ", solved.regimes.size(), " rows are invalid, inadmissible or have no end"));
 }
 
 }  // namespace ricochet::cli

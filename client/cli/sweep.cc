@@ -58,6 +58,7 @@ struct SweepOptions {
   bool zip = false;
   bool regime = false;
   bool summary_only = false;
+  bool strict = false;
   PictureOptions picture;
   std::string threads;
   bool resume = false;
@@ -143,7 +144,7 @@ class Receiver {
       : options_(&options),
         with_regime_(request.with_regime),
         output_(std::move(output)),
-        invalid_(request),
+        doubtful_(request),
         progress_(StreamsRows(options.common)) {
     if (!options.picture.file.empty()) plot_.emplace(request, options.picture.kind);
   }
@@ -157,7 +158,7 @@ class Receiver {
   absl::Status Add(SweepChunk& chunk) {
     if (absl::Status status = output_.Join(chunk); !status.ok()) return status;
     progress_.Update(chunk.points_done, chunk.points_total);
-    invalid_.Add(chunk);
+    doubtful_.Add(chunk);
     if (chunk.summary.has_value() && !chunk.summary->elapsed_s.has_value()) {
       chunk.summary->elapsed_s = progress_.Seconds();
     }
@@ -186,9 +187,12 @@ class Receiver {
 
   absl::Status Commit() {
     absl::Status written = output_.Commit();
-    if (written.ok()) std::fputs(invalid_.Text().c_str(), stderr);
+    if (written.ok()) std::fputs(doubtful_.Text().c_str(), stderr);
     return written;
   }
+
+  // Errors: FAILED_PRECONDITION if the run is strict and a point is not as it should be.
+  absl::Status CheckStrictly() const { return options_->strict ? doubtful_.CheckStrictly() : absl::OkStatus(); }
 
   // Draws the picture, if one is wanted, after the output was committed.
   absl::Status Picture() const {
@@ -201,7 +205,7 @@ class Receiver {
   const SweepOptions* options_;
   bool with_regime_;  // The output has the regimes, too.
   SweepOutput output_;
-  InvalidCounts invalid_;
+  DoubtfulPoints doubtful_;
   std::optional<SweepPlot> plot_;
   Progress progress_;
 };
@@ -230,7 +234,8 @@ absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRe
     }
   }
   absl::Status status = ReceiveAll(solver.Sweep(receiver.Remaining(request), {.stop = std::move(stop)}), receiver);
-  if (status.ok()) return receiver.Picture();
+  if (status.ok()) status = receiver.Picture();
+  if (status.ok()) return receiver.CheckStrictly();
   receiver.output().LeaveForResume(ResumeCommand(options.arguments));
   return status;
 }
@@ -334,6 +339,8 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   AddGridOptions(*sub, *options);
   AddDemandOptions(*sub, options->demand);
   sub->add_flag("--summary-only", options->summary_only, "Compute every point, but print only the summary");
+  sub->add_flag("--strict", options->strict,
+                "Fail if a point is invalid, inadmissible or has no end, after writing the answer");
   sub->add_option("--threads", options->threads,
                   "Compute with at most N threads, which changes no result [the number of cores]; not with --server")
       ->type_name("N");

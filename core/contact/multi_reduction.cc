@@ -110,7 +110,7 @@ MultiReduction ReduceBodies(const std::vector<FreeBody>& bodies, const std::vect
 MultiReduction ReduceMatrix(const ContactMatrix& matrix) {
   const auto rows = static_cast<Eigen::Index>(matrix.velocity_m_s.size());
   const Eigen::Map<const Eigen::MatrixXd> w(matrix.w_per_kg.data(), rows, rows);
-  const Eigen::MatrixXd symmetric = 0.5 * (w + w.transpose());
+  const Eigen::MatrixXd symmetric = 0.5 * w + 0.5 * w.transpose();
   return {.w = symmetric,
           .jacobian = Eigen::MatrixXd::Identity(rows, rows),
           .response = symmetric,

@@ -51,8 +51,11 @@ class Sum {
   double value_ = 0.0, error_ = 0.0, size_ = 0.0;
 };
 
-// The power of two above the size of a number.
-double PowerAbove(double size) { return size > 0.0 ? std::scalbn(1.0, std::ilogb(size) + 1) : 1.0; }
+// The power of two above the size of a number, or the largest that there is.
+double PowerAbove(double size) { return size > 0.0 ? std::scalbn(1.0, std::min(std::ilogb(size) + 1, 1023)) : 1.0; }
+
+// The power of four at or below the size of a number > 0, whose root is a power of two.
+double PowerOfFourBelow(double size) { return std::scalbn(1.0, std::ilogb(size) & ~1); }
 
 // The order as text, up to a number of impacts that somebody may still read.
 std::string OrderText(const std::vector<int>& order, int repeats_from, const SortedProblem& sorted) {
@@ -84,6 +87,11 @@ class Answerer {
       problem.laws.push_back(
           {.mu = contact.friction, .e = *contact.energetic, .stiffness = contact.relative_stiffness.value_or(1.0)});
     }
+    const auto stiffest =
+        std::max_element(problem.laws.begin(), problem.laws.end(),
+                         [](const ContactLaw& x, const ContactLaw& y) { return x.stiffness < y.stiffness; });
+    stiffness_scale_ = PowerOfFourBelow(stiffest->stiffness);
+    for (ContactLaw& law : problem.laws) law.stiffness /= stiffness_scale_;
     sorted_ = Sort(problem);
     metric_ = MetricOf(sorted_.problem);
   }
@@ -113,7 +121,7 @@ class Answerer {
   }
 
   double ImpulseScale() const { return v_scale_ / w_scale_; }
-  double EnergyScale() const { return v_scale_ * v_scale_ / w_scale_; }
+  double EnergyScale() const { return v_scale_ / w_scale_ * v_scale_; }
 
   // True if the method was asked for, or everything was and the scene allows it. What it does not allow is named.
   bool Wanted(MultiContactMethod method) {
@@ -250,7 +258,7 @@ class Answerer {
       Problem problem = sorted_.problem;
       for (int i = 0; i < problem.k; ++i) {
         const bool is_driven = sorted_.from[At(i)] + 1 == request_.stiffness_range->contact;
-        if (is_driven) problem.laws[At(i)].stiffness = stiffness;
+        if (is_driven) problem.laws[At(i)].stiffness = stiffness / stiffness_scale_;
       }
       return OutcomeOf(FindSprings(problem, MirrorOf(problem), stopped_));
     };
@@ -402,7 +410,7 @@ class Answerer {
   const MultiReduction& reduction_;
   const Eigen::VectorXd velocity_;
   absl::FunctionRef<bool()> stopped_;
-  double w_scale_ = 1.0, v_scale_ = 1.0;
+  double w_scale_ = 1.0, v_scale_ = 1.0, stiffness_scale_ = 1.0;  // What the numbers of the problem are divided by.
   SortedProblem sorted_;
   EnergyMetric metric_;
   std::vector<Output> outputs_;
@@ -416,6 +424,22 @@ bool IsFinite(const AttainedOutcome& outcome) {
   };
   return all(outcome.contact_velocity_m_s) && all(outcome.velocity) && all(outcome.impulse_n_s) &&
          std::isfinite(outcome.energy_change_j);
+}
+
+// Returns the path of a list of the answer that has a number too large for a double, or nullptr.
+const char* WhatOverflows(const MultiContactAnswer& answer) {
+  const auto is_finite = [](const PossibleRange& range) {
+    return std::isfinite(range.lower) && std::isfinite(range.upper);
+  };
+  const auto has_finite_outcome = [](const StiffnessSample& sample) { return IsFinite(sample.outcome); };
+  if (!std::isfinite(answer.energy_before_j)) return "answers.energy_before_j";
+  if (!std::all_of(answer.orders.begin(), answer.orders.end(), IsFinite)) return "answers.orders";
+  if (answer.springs.has_value() && !IsFinite(*answer.springs)) return "answers.springs";
+  if (!std::all_of(answer.stiffness_samples.begin(), answer.stiffness_samples.end(), has_finite_outcome)) {
+    return "answers.stiffness_samples";
+  }
+  if (!std::all_of(answer.possible.begin(), answer.possible.end(), is_finite)) return "answers.possible";
+  return nullptr;
 }
 
 }  // namespace
@@ -435,11 +459,7 @@ absl::StatusOr<std::vector<MultiContactAnswer>> SolveMultiContact(const MultiCon
     if (!reduction.ContactVelocity(velocity).allFinite()) return OutputOverflow("contact_velocity_before_m_s");
     MultiContactAnswer& answer = answers.emplace_back(multi::Answerer(request, reduction, velocity, stopped).Answer());
     if (stopped()) return absl::CancelledError("stopped");
-    if (!std::isfinite(answer.energy_before_j)) return OutputOverflow("answers.energy_before_j");
-    if (!std::all_of(answer.orders.begin(), answer.orders.end(), multi::IsFinite)) {
-      return OutputOverflow("answers.orders");
-    }
-    if (answer.springs.has_value() && !multi::IsFinite(*answer.springs)) return OutputOverflow("answers.springs");
+    if (const char* const path = multi::WhatOverflows(answer)) return OutputOverflow(path);
   }
   return answers;
 }

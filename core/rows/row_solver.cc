@@ -238,6 +238,7 @@ void RowSolver::AddTo(SweepSummary& counts, int64_t first, size_t count) const {
     if (!HasNumbers(statuses_[i])) return;
     Count(row, rows, counts.by_model[static_cast<size_t>(block_.models[i])]);
     if (statuses_[i] == RowStatus::kInadmissible) Count(row, rows, counts.inadmissible);
+    if (statuses_[i] == RowStatus::kNotConverged) Count(row, rows, counts.not_converged);
   };
   if (block_.is_uniform) return add(0, count);
   for (size_t i = 0; i < count; i += kGroup) {
@@ -269,17 +270,14 @@ BadRow RowSolver::Describe(int64_t row, size_t i) {
   return bad;
 }
 
-// A derived field can break a rule of its own in a scene that keeps all of its own.
 Violation RowSolver::WhyInvalid(size_t i) {
   driven_.SetRow(fields_, i);
+  for (size_t k = 0; k < fields_.size(); ++k) {
+    if (field_names_[k] != kPhi) continue;
+    if (std::optional<Violation> violation = WhyNoPhi(fields_[k].values[i])) return *std::move(violation);
+  }
   std::vector<Violation> violations = Validate(driven_.scene());
   if (!violations.empty()) return std::move(violations.front());
-  for (size_t k = 0; k < fields_.size(); ++k) {
-    const double value = fields_[k].values[i];
-    if (!Holds(value, driven_.fields()[k].rule())) {
-      return MakeViolation(field_names_[k], value, "lie in the range of the field");
-    }
-  }
   std::optional<SceneContact> contact;
   violations = CheckSolvableWithout(driven_.scene(), contact, demand_);
   return violations.empty() ? Violation() : std::move(violations.front());

@@ -11,6 +11,7 @@
 #include "core/base/nearest.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/elementary.h"
+#include "core/scene/check.h"
 
 namespace ricochet {
 namespace {
@@ -112,6 +113,13 @@ void Field::SetMirror(Mechanism& mechanism, Scalar& entry, std::vector<std::stri
   if (across == place) return;
   entry.mirror = &mass[across];
   sets.push_back(absl::StrCat("mechanism.mass_matrix[", across, "]"));
+}
+
+std::optional<Violation> WhyNoPhi(double value) {
+  Check check(Check::Mode::kListing);
+  check.Number({.prefix = "pendulum", .name = "phi_rad"}, value, NumberRule::kHalfTurn);
+  if (!check.failed()) return std::nullopt;
+  return std::move(check).violations().front();
 }
 
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {

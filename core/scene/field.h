@@ -18,12 +18,15 @@
 
 #include "absl/status/statusor.h"
 #include "core/scene/numbers.h"
+#include "ricochet/error.h"
 #include "ricochet/scene.h"
 
 namespace ricochet {
 
 // The path that may state a pendulum's angle, in place of a and b.
 inline constexpr char kPhi[] = "pendulum.phi_rad";
+// Returns why this field must not have the value, if it must not: checking the scene checks only what it drives.
+std::optional<Violation> WhyNoPhi(double value);
 
 // A Field sets one number of the scene for which it was resolved. That scene must outlive the field and keep its
 // system, law and lists.

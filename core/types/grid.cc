@@ -60,7 +60,8 @@ std::optional<Violation> CheckCombination(const Grid& grid) {
       for (const Axis& axis : grid.axes) {
         if (AxisCount(axis) == AxisCount(grid.axes.front())) continue;
         return MakeViolation("axes",
-                             absl::StrCat("have ", AxisCount(grid.axes.front()), " and ", AxisCount(axis), " values"),
+                             absl::StrCat("have ", AxisCount(grid.axes.front()), " values of ", grid.axes.front().path,
+                                          " and ", AxisCount(axis), " of ", axis.path),
                              "be equally long to be zipped");
       }
       return std::nullopt;

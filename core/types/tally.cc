@@ -19,7 +19,9 @@ Tally Joined(const Tally& a, const Tally& b) {
 }
 
 SweepSummary Joined(const SweepSummary& a, const SweepSummary& b) {
-  SweepSummary joined = {.points = Sum(a.points, b.points), .inadmissible = Joined(a.inadmissible, b.inadmissible)};
+  SweepSummary joined = {.points = Sum(a.points, b.points),
+                         .inadmissible = Joined(a.inadmissible, b.inadmissible),
+                         .not_converged = Joined(a.not_converged, b.not_converged)};
   for (size_t i = 0; i < joined.by_regime.size(); ++i) joined.by_regime[i] = Joined(a.by_regime[i], b.by_regime[i]);
   for (size_t i = 0; i < joined.by_model.size(); ++i) joined.by_model[i] = Joined(a.by_model[i], b.by_model[i]);
   return joined;
@@ -32,6 +34,7 @@ BatchSummary Joined(BatchSummary first, BatchSummary second, int64_t first_row) 
   for (Tally& tally : second.counts.by_regime) shift(tally);
   for (Tally& tally : second.counts.by_model) shift(tally);
   shift(second.counts.inadmissible);
+  shift(second.counts.not_converged);
   first.counts = Joined(first.counts, second.counts);
   for (BadRow& bad : second.bad_rows) {
     if (first.bad_rows.size() == kMostBadRows) break;

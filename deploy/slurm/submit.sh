@@ -21,6 +21,21 @@ case $2 in
     exit 2
     ;;
 esac
+case $1 in
+  *.csv | *.json | *.jsonl | *.npy | *.nc) ;;
+  *)
+    echo "submit.sh: FILE = $1: must end in .csv, .json, .jsonl, .npy or .nc" >&2
+    exit 2
+    ;;
+esac
+for argument in "$@"; do
+  case $argument in
+    --threads | --threads=* | --shard* | -o | --output | --output=*)
+      echo "submit.sh: $argument: must not be given, because the array sets it" >&2
+      exit 2
+      ;;
+  esac
+done
 here=$(cd "$(dirname "$0")" && pwd)
 file=$1
 shards=$2

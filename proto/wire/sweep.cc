@@ -101,7 +101,8 @@ struct Map<SweepSummary> : Between<SweepSummary, v1::SweepSummary> {
                                                                &v1::RegimeTally::regime, &v1::RegimeTally::set_regime),
                                           TalliesEntry<Model>(&T::by_model, &P::by_model, &P::mutable_by_model,
                                                               &v1::ModelTally::model, &v1::ModelTally::set_model),
-                                          Defaulted(RICOCHET_FIELD(inadmissible)), RICOCHET_FIELD(elapsed_s));
+                                          Defaulted(RICOCHET_FIELD(inadmissible)),
+                                          Defaulted(RICOCHET_FIELD(not_converged)), RICOCHET_FIELD(elapsed_s));
 };
 
 void ToProto(const SweepSummary& summary, v1::SweepSummary& proto) { Map<SweepSummary>::kFields.Write(summary, proto); }

@@ -449,6 +449,7 @@ class Client:
                 invalid=counts[0],
                 inadmissible=counts[1],
                 without_end=counts[2],
+                not_converged=counts[3],
                 bad_rows=[
                     Record(row=row, status=_STATUSES[status], field=field, description=description)
                     for row, status, field, description in bad_rows
@@ -535,7 +536,7 @@ class Client:
             is_grid=not zip_axes and bool(given),
             summary=Record(
                 points=len(regimes), by_regime=codes["regime"].counts(), invalid=counts[0], inadmissible=counts[1],
-                without_end=counts[2]),
+                without_end=counts[2], not_converged=counts[3]),
             attrs={"Conventions": "CF-1.8", "title": _TITLE, **attrs},
         )
         _warn_of_rows(table)

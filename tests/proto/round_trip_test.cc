@@ -235,6 +235,7 @@ SweepSummary SomeSummary() {
   summary.by_regime[static_cast<size_t>(Regime::kRebound)] = {7, 0};
   summary.by_regime[static_cast<size_t>(Regime::kInvalid)] = {3, 4};
   summary.inadmissible = {2, 5};
+  summary.not_converged = {1, 6};
   summary.elapsed_s = 0.125;
   return summary;
 }
@@ -257,6 +258,7 @@ TEST(SweepTest, EmptySummaryHasNoFirstIndices) {
   const SweepSummary summary = FromProto(v1::SweepSummary());
   EXPECT_EQ(summary, SweepSummary());
   EXPECT_EQ(summary.inadmissible.first_index, -1);
+  EXPECT_EQ(summary.not_converged.first_index, -1);
   v1::SweepSummary without_tally;
   without_tally.add_by_regime()->set_regime(v1::REGIME_LOCKED);
   EXPECT_EQ(FromProto(without_tally), SweepSummary());

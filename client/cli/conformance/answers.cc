@@ -139,7 +139,7 @@ absl::StatusOr<SimulatorAnswers> ReadCsv(const std::string& text, const std::str
   std::vector<std::string> cells;
   while (reader->NextRow(cells)) {
     const std::string where = absl::StrCat("line ", reader->line());
-    if (reader->ends_in_quotes()) return absl::InvalidArgumentError(absl::StrCat(name, ", ", where, " ", kOpenQuotes));
+    if (absl::Status status = reader->CheckEnd(); !status.ok()) return status;
     std::vector<double> velocity;
     for (size_t i = 2; i < cells.size(); ++i) {
       const absl::StatusOr<double> number = ParseNumber(cells[i], absl::StrCat(where, ", cell ", i + 1));

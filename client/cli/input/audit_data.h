@@ -39,6 +39,8 @@ class AuditTable {
   bool has_uncertainty() const;
   // Returns the next rows, at most `most`; none at the end.
   AuditRows Next(size_t most);
+  // Errors: those of CsvReader::CheckEnd.
+  absl::Status CheckEnd() const { return reader_.CheckEnd(); }
   // The bytes read so far.
   int64_t bytes() const { return reader_.bytes(); }
 

@@ -64,6 +64,7 @@ absl::Status ReadRow(const CsvReader& reader, const std::vector<std::string>& ce
   const auto wrong = [&reader](const std::string& column, const std::string& what) {
     return absl::InvalidArgumentError(absl::StrCat("--data, line ", reader.line(), ": ", column, " ", what));
   };
+  if (absl::Status status = reader.CheckEnd(); !status.ok()) return status;
   if (const std::string rule = reader.WhyNoRow(cells); !rule.empty()) return wrong("the row", rule);
   for (size_t i = 0; i < columns.size(); ++i) {
     if (!columns[i].has_value()) continue;

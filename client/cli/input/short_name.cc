@@ -109,6 +109,10 @@ absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const s
   const std::vector<std::string> places = ColumnPlaces(scene);
   std::vector<std::string> columns;
   for (const std::string& name : names) {
+    if (name == "regime" || name == "status") {
+      return absl::InvalidArgumentError(absl::StrCat(
+          "--column ", name, ": is no number: sweep --regime prints regime and status, and solve --data always does"));
+    }
     if (const auto derivative = ReadDerivativeName(absl::StripAsciiWhitespace(name))) {
       absl::StatusOr<std::string> full = FullDerivative(*derivative, known, FieldPaths(scene));
       if (!full.ok()) return full.status();

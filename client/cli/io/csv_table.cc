@@ -71,11 +71,17 @@ bool CsvReader::ReadLine(std::string& line) {
 }
 
 std::string CsvReader::WhyNoRow(const std::vector<std::string>& cells) const {
-  if (ends_in_quotes_) return kOpenQuotes;
   if (cells.size() == header_.size()) return "";
   return absl::StrCat("has ", cells.size(), cells.size() == 1 ? " cell" : " cells", ": must have ", header_.size(),
                       cells.size() < header_.size() ? "; what is unknown has an empty cell"
                                                     : "; a number has a decimal point, not a comma");
+}
+
+absl::Status CsvReader::CheckEnd() const {
+  if (!ends_in_quotes_) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(name_, ", line ", number_,
+                                                 " begins a cell in quotes that has all lines",
+                                                 " to the end: must have a quote at its end"));
 }
 
 void CsvReader::Append(const std::vector<std::string>& cells, CsvTable& table) const {

@@ -31,8 +31,6 @@ struct BadCells {
   std::string Reason() const { return column.empty() ? description : column + " " + description; }
 };
 
-inline constexpr char kOpenQuotes[] = "begins a cell in quotes that does not end: must have a quote at its end";
-
 // Says how the cells of a column are read.
 enum class CellKind { kNumber, kAngle, kSkipped };
 
@@ -69,8 +67,8 @@ class CsvReader {
   std::string WhyNoRow(const std::vector<std::string>& cells) const;
   // The line of the text in which the last row begins, from 1.
   int64_t line() const { return number_; }
-  // True if the text ended within a cell of the last row, so that other rows may be lost in it.
-  bool ends_in_quotes() const { return ends_in_quotes_; }
+  // Errors: INVALID_ARGUMENT if the text ended within a cell of the last row, so that other rows are lost in it.
+  absl::Status CheckEnd() const;
   // The bytes read so far.
   int64_t bytes() const { return bytes_; }
 

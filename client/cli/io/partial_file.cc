@@ -118,7 +118,8 @@ absl::Status PartialFile::Resume(const Partial& wanted) {
   text << std::ifstream(manifest_path()).rdbuf();
   if (const auto read = google::protobuf::util::JsonStringToMessage(text.str(), &manifest_); !read.ok()) {
     return absl::DataLossError(absl::StrCat("cannot go on with ", part_path_, ": ", manifest_path(),
-                                            " is missing or no manifest: ", std::string(read.message())));
+                                            " is missing or no manifest (", std::string(read.message()), "): remove ",
+                                            part_path_, " and begin anew"));
   }
   using google::protobuf::util::MessageDifferencer;
   if (!MessageDifferencer::Equals(IdentityOf(manifest_), IdentityOf(wanted))) {

@@ -92,9 +92,10 @@ std::string ResidualsText(const FitRequest& request, const FitResponse& response
     table.Add(std::move(cells));
   }
   const size_t left_out = response.rows.size() - shown;
-  return absl::StrCat(
-      "\nResiduals [sigma]\n", table.Render(2),
-      left_out == 0 ? "" : absl::StrCat("  ... and ", left_out, " more rows; --format csv --rows has them all\n"));
+  return absl::StrCat("\nResiduals [sigma]\n", table.Render(2),
+                      left_out == 0 ? ""
+                                    : absl::StrCat("  ... and ", left_out, left_out == 1 ? " more row" : " more rows",
+                                                   "; --format csv --rows has them all\n"));
 }
 
 std::string NotesText(const FitResponse& response) {

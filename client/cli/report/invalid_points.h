@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "absl/status/status.h"
 #include "core/plan/demand.h"
 #include "core/rows/driven_scene.h"
 #include "ricochet/error.h"
@@ -43,16 +44,21 @@ class InvalidPoints {
   std::shared_ptr<DrivenScene> driven_;  // Made for the first invalid point.
 };
 
-// Counts the invalid points of a sweep by their reason.
-class InvalidCounts {
+// Counts the points of a sweep whose numbers are no answer, or not a sound one: the invalid ones by their reason, the
+// inadmissible ones, and those that did not converge.
+class DoubtfulPoints {
  public:
-  explicit InvalidCounts(const SweepRequest& request);
+  explicit DoubtfulPoints(const SweepRequest& request);
 
   void Add(const SweepChunk& chunk);
 
-  // Returns a line for each reason, with the number of its points and the first of them; empty without invalid points.
-  // The number of all includes those of an earlier run that was gone on with, whose reasons are not known.
+  // Returns a line for each kind of points and for each reason, with the number of points and the first of them; empty
+  // if there are none. The number of all includes those of an earlier run that was gone on with, whose reasons are not
+  // known.
   std::string Text() const;
+
+  // Errors: FAILED_PRECONDITION if a point is invalid, inadmissible or has no end.
+  absl::Status CheckStrictly() const;
 
  private:
   // Finding a reason takes microseconds, so only this many invalid points are examined, and they stand for all.
@@ -63,7 +69,7 @@ class InvalidCounts {
   InvalidPoints points_;
   bool may_lack_numbers_;  // A valid point may have NaN in every column.
   int64_t count_ = 0;      // The number of invalid points examined.
-  int64_t total_ = 0;      // The number of invalid points in the whole sweep.
+  SweepSummary summary_;   // That of the whole sweep.
   std::map<std::string, Tally> by_rule_;
 };
 

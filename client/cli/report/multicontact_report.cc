@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
@@ -44,8 +48,13 @@ std::string EndText(MultiContactEnd end) {
 }
 
 std::string WithUnit(const std::string& name, double value) {
-  const bool is_of_body = absl::StartsWith(name, "body_");
-  const bool is_speed = is_of_body || absl::StartsWith(name, "contact_");
+  // A function of the velocities may have any other name.
+  const auto has_number_after = [&name](absl::string_view head) {
+    absl::string_view rest = name;
+    return absl::ConsumePrefix(&rest, head) && !rest.empty() && absl::ascii_isdigit(static_cast<uint8_t>(rest[0]));
+  };
+  const bool is_of_body = has_number_after("body_");
+  const bool is_speed = is_of_body || has_number_after("contact_");
   const bool is_rate = is_of_body && absl::StrContains(name, ".rate");
   return absl::StrCat(Rounded(value), is_rate ? " rad/s" : is_speed ? " m/s" : "");
 }

@@ -32,8 +32,13 @@ std::string ShardPath(const std::string& file, ShardNumber number) {
 
 absl::StatusOr<ShardFile> ReadManifest(const std::string& path) {
   ShardFile shard = {.path = path, .manifest = {}};
+  std::ifstream file(path + kManifestEnding);
+  if (!file.is_open()) {
+    return absl::DataLossError(absl::StrCat("the manifest ", path, kManifestEnding, " cannot be read: remove ", path,
+                                            " and compute the shard anew"));
+  }
   std::ostringstream text;
-  text << std::ifstream(path + kManifestEnding).rdbuf();
+  text << file.rdbuf();
   const auto read = google::protobuf::util::JsonStringToMessage(text.str(), &shard.manifest);
   if (read.ok()) return shard;
   return absl::DataLossError(absl::StrCat(path, kManifestEnding, " is no manifest of a shard: ", read.ToString()));

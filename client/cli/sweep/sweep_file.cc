@@ -58,6 +58,7 @@ absl::StatusOr<SweepTable> ReadCsv(std::istream& stream, const std::vector<std::
   std::vector<std::string> cells;
   for (int64_t points = 1; reader->NextRow(cells); ++points) {
     if (points > SweepTable::kMostPoints) return TooManyPoints();
+    if (absl::Status status = reader->CheckEnd(); !status.ok()) return status;
     if (absl::Status status = AddRow(names, cells, *rows); !status.ok()) {
       return absl::InvalidArgumentError(absl::StrCat("line ", reader->line(), ": ", status.message()));
     }

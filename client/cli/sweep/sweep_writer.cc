@@ -25,7 +25,7 @@ struct Count {
   Tally tally;
 };
 
-// Returns the regimes that occurred, the inadmissible points, and the models that solved points, named by `name` and
+// Returns the regimes that occurred, the points that are inadmissible or did not converge, and the models that solved points, named by `name` and
 // `model_name`.
 template <typename Name, typename NameOfModel>
 std::vector<Count> Counts(const SweepSummary& summary, Name name, NameOfModel model_name) {
@@ -36,6 +36,7 @@ std::vector<Count> Counts(const SweepSummary& summary, Name name, NameOfModel mo
     }
   }
   counts.push_back({"inadmissible", summary.inadmissible});
+  counts.push_back({"not_converged", summary.not_converged});
   for (size_t i = 0; i < summary.by_model.size(); ++i) {
     if (summary.by_model[i].count > 0) counts.push_back({model_name(static_cast<Model>(i)), summary.by_model[i]});
   }

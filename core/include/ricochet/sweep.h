@@ -62,6 +62,7 @@ struct SweepSummary {
   std::array<Tally, kRegimeCount> by_regime = {};  // Indexed by the number of the regime.
   std::array<Tally, kModelCount> by_model = {};    // Indexed by the number of the model; counts valid points only.
   Tally inadmissible;                              // Points whose outcome breaks a limit.
+  Tally not_converged;                             // Points whose status is RowStatus::kNotConverged.
   std::optional<double> elapsed_s;                 // The server or the command line fills it in, not the core.
   friend bool operator==(const SweepSummary&, const SweepSummary&) = default;
 };

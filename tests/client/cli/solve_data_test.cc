@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "absl/strings/str_cat.h"
 #include "tests/client/cli/cli_run.h"
 #include "tests/support/paths.h"
 
@@ -26,6 +27,13 @@ class CliSolveData : public CliTest {
     Arguments all = {"audit", "--scene", TestDataPath("scenes/rod_contact.textproto"), "--data", "-"};
     all.insert(all.end(), more.begin(), more.end());
     return Run(all, table);
+  }
+  // Friction of 2 holds this contact for ever.
+  void WriteWedge() const {
+    Write("wedge.textproto", R"(
+      planar_contact { w_tt_per_kg: 1 w_tn_per_kg: 1 w_nn_per_kg: 1 tangential_m_s: 1 normal_m_s: -1 }
+      friction { kinetic_coefficient: 2 }
+      restitution { energetic: 0.5 })");
   }
 };
 
@@ -130,8 +138,9 @@ TEST_F(CliSolveData, ACellInQuotesMayHaveLineEnds) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, Solve("mu\n0.1\n0.2\n", {"--format", "csv"}).out);
   EXPECT_THAT(Solve("mu,note\n0.1,\"a\n0.5\nb\"\n-1,c\n", {"--skip-column", "note"}).out, HasSubstr("row 1 (line 5)"));
-  EXPECT_THAT(Solve("mu,note\n0.1,\"a\n0.2,c\n", {"--skip-column", "note"}).out,
-              HasSubstr("row 0 (line 2): begins a cell in quotes that does not end"));
+  const CliResult open = Solve("mu,note\n0.1,\"a\n0.2,c\n", {"--skip-column", "note"});
+  EXPECT_EQ(open.exit_code, 2);
+  EXPECT_THAT(open.err, HasSubstr("line 2 begins a cell in quotes that has all lines to the end"));
 }
 
 // pandas writes the index of a frame so.
@@ -157,7 +166,7 @@ TEST_F(CliSolveData, StrictFailsAfterWritingEverything) {
   EXPECT_EQ(Solve("mu\n0.1\n", {"--strict"}).exit_code, 0);
   const CliResult result = Solve("mu\n0.1\n-1\nx\n", {"--strict"});
   EXPECT_EQ(result.exit_code, 42);
-  EXPECT_THAT(result.err, HasSubstr("2 of 3 rows are not admissible"));
+  EXPECT_THAT(result.err, HasSubstr("2 of 3 rows are invalid, inadmissible or have no end"));
   EXPECT_EQ(result.out, Solve("mu\n0.1\n-1\nx\n").out);
 }
 
@@ -170,21 +179,53 @@ TEST_F(CliSolveData, StrictFailsIfALawHasNoSolution) {
   EXPECT_THAT(one.err, HasSubstr("FAILED_PRECONDITION: the impact law has no solution for this contact"));
   const CliResult rows = Run({"solve", "--scene", "law.textproto", "--data", "-", "--strict"}, "brach.mu_hat\n0\n1\n");
   EXPECT_EQ(rows.exit_code, 42);
-  EXPECT_THAT(rows.err, HasSubstr("1 of 2 rows are not admissible"));
+  EXPECT_THAT(rows.err, HasSubstr("1 of 2 rows are invalid, inadmissible or have no end"));
 }
 
 TEST_F(CliSolveData, StrictFailsIfAnImpactHasNoEnd) {
-  Write("wedge.textproto", R"(
-    planar_contact { w_tt_per_kg: 1 w_tn_per_kg: 1 w_nn_per_kg: 1 tangential_m_s: 1 normal_m_s: -1 }
-    friction { kinetic_coefficient: 2 }
-    restitution { energetic: 0.5 })");
+  WriteWedge();
   const CliResult one = Run({"solve", "--scene", "wedge.textproto", "--strict"});
   EXPECT_EQ(one.exit_code, 42);
   EXPECT_THAT(one.err, HasSubstr("FAILED_PRECONDITION: the contact has no end that is known"));
   const CliResult rows = Run({"solve", "--scene", "wedge.textproto", "--data", "-", "--strict"}, "mu\n0.1\n2\n");
   EXPECT_EQ(rows.exit_code, 42);
   EXPECT_THAT(rows.out, HasSubstr("2 rows, 0 without numbers, 0 inadmissible, 1 without an end or a solution"));
-  EXPECT_THAT(rows.err, HasSubstr("1 of 2 rows are not admissible or have no end"));
+  EXPECT_THAT(rows.err, HasSubstr("1 of 2 rows are invalid, inadmissible or have no end"));
+}
+
+TEST_F(CliSolveData, ARowLessAccurateThanAskedIsCounted) {
+  const CliResult result =
+      Run({"solve", "--scene", TestDataPath("scenes/turning_contact.textproto"), "--tolerance", "1e-17", "--data", "-"},
+          "mu\n0.3\n");
+  EXPECT_THAT(result.out, HasSubstr("0 without an end or a solution, 1 less accurate than asked"));
+}
+
+TEST_F(CliSolveData, AnAngleOutOfItsRangeIsNamed) {
+  for (const char* const angle : {"7", "30", "0"}) {
+    const Arguments pendulum = {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--data", "-"};
+    EXPECT_THAT(Run(pendulum, absl::StrCat("phi\n", angle, "\n")).out,
+                HasSubstr(absl::StrCat("pendulum.phi_rad = ", angle, ": must be in (0, pi), in radians")));
+  }
+}
+
+// A sweep says so whether it prints the regimes or not.
+TEST_F(CliSolveData, ASweepCountsPointsThatAreNoSoundAnswer) {
+  WriteWedge();
+  const Arguments wedge = {"sweep", "--scene", "wedge.textproto", "--axis", "mu=0.1,2", "--column", "newton"};
+  for (const char* const format : {"text", "csv", "json", "jsonl"}) {
+    Arguments arguments = wedge;
+    arguments.insert(arguments.end(), {"--format", format});
+    const CliResult result = Run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("1 point did not converge, at index 1: the impact has no end that is known"));
+    arguments.push_back("--strict");
+    const CliResult strict = Run(arguments);
+    EXPECT_EQ(strict.exit_code, 42);
+    EXPECT_THAT(strict.err, HasSubstr("of 2 points 0 are inadmissible, and 1 are invalid or have no end"));
+  }
+  const Arguments sharp = {"sweep",  "--a",          "0.3",      "--b",    "1",        "--newton", "0.9",
+                           "--axis", "mu=0,0.1,0.2", "--column", "newton", "--format", "csv"};
+  EXPECT_THAT(Run(sharp).err, HasSubstr("2 points are inadmissible, the first at index 1\n"));
 }
 
 }  // namespace

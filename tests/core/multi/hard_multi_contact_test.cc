@@ -1,5 +1,6 @@
 // Scenes of several contacts that tempt a solver to loop, to lose a digit, or to answer where there is no answer.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -173,6 +174,32 @@ TEST(HardMultiContactTest, PlasticSpringsAreTheLimitOfSpringsThatAreNearlyPlasti
     EXPECT_LE((plastic.v - nearly.v).cwiseAbs().maxCoeff(), 0.2 * scale + 1e-7) << scene;
   }
   EXPECT_GE(compared, 10);
+}
+
+// The rebound of such a coefficient is smaller than the rounding of the velocities, or its square is no double.
+TEST(HardMultiContactTest, ACoefficientBelowRoundingIsPlastic) {
+  std::mt19937_64 random(22);
+  int compared = 0;
+  for (int scene = 0; scene < 60; ++scene) {
+    Problem problem = RandomMultiContact(random, true);
+    if (problem.k != 2 || PushApart(problem).size() == 0) continue;
+    const auto with = [&](double e) {
+      problem.laws[0].e = e;
+      return FindSprings(problem, std::nullopt, kNever);
+    };
+    const Attained plastic = with(0.0);
+    for (const double e : {1e-9, 1e-11, 1e-12, 1e-13, 1e-14, 1e-40, 1e-170, 1e-310}) {
+      const Attained nearly = with(e);
+      if (plastic.end == MultiContactEnd::kUndetermined) continue;
+      EXPECT_EQ(nearly.end, plastic.end) << scene << " " << e;
+      ++compared;
+      for (int i = 0; i < 4; ++i) {
+        const double error = plastic.ErrorOf(problem, i) + nearly.ErrorOf(problem, i);
+        EXPECT_NEAR(nearly.v(i), plastic.v(i), error + 100.0 * e) << scene << " " << e;
+      }
+    }
+  }
+  EXPECT_GE(compared, 80);
 }
 
 // A plastic contact falls more than once here, between elastic ones.
@@ -435,6 +462,50 @@ TEST(HardMultiContactTest, ALockedPendulumStays) {
   const Orders orders = FindOrders(locked, kNever);
   EXPECT_EQ(orders.outcomes.front().attained.v, Vector::Zero(2));
   EXPECT_EQ(FindSprings(locked, std::nullopt, kNever).v, Vector::Zero(2));
+}
+
+MultiContactScene PairOfContacts(double w, double coupling, double v) {
+  return {.system = ContactMatrix{.w_per_kg = {w, 0, 0, 0, 0, w, 0, coupling, 0, 0, w, 0, 0, coupling, 0, w},
+                                  .velocity_m_s = {0, -v, 0, -0.75 * v}},
+          .contacts = {{.energetic = 0.5}, {.energetic = 0.5}}};
+}
+
+TEST(HardMultiContactTest, OnlyTheRatioOfStiffnessesMatters) {
+  MultiContactScene scene = PairOfContacts(1.0, -0.5, 1.0);
+  const std::vector<double> known = AnswerTo({.scene = scene}).springs->contact_velocity_m_s;
+  for (const double stiffness : {1e308, 1e154, 3.0, 1e-154, 1e-310}) {
+    for (MultiContactPoint& contact : scene.contacts) contact.relative_stiffness = stiffness;
+    EXPECT_EQ(AnswerTo({.scene = scene}).springs->contact_velocity_m_s, known) << stiffness;
+  }
+}
+
+// A unit of mass or of speed that is a power of two changes no digit, at the ends of the doubles, too.
+TEST(HardMultiContactTest, TheUnitsChangeNoDigit) {
+  const MultiContactAnswer known = AnswerTo({.scene = PairOfContacts(1.0, -0.5, 1.0)});
+  for (const auto& [w, v] : std::vector<std::pair<int, int>>{{300, 520}, {-1000, -600}, {1023, 1}, {1023, 1000}}) {
+    const double mass = std::ldexp(1.0, w), speed = std::ldexp(1.0, v);
+    const MultiContactAnswer answer = AnswerTo({.scene = PairOfContacts(mass, -0.5 * mass, speed)});
+    EXPECT_EQ(answer.verdict, known.verdict) << w << " " << v;
+    EXPECT_EQ(answer.energy_before_j, std::ldexp(known.energy_before_j, 2 * v - w)) << w << " " << v;
+    ASSERT_EQ(answer.orders.size(), known.orders.size()) << w << " " << v;
+    for (size_t i = 0; i < answer.orders.size(); ++i) {
+      const AttainedOutcome& here = answer.orders[i];
+      const AttainedOutcome& there = known.orders[i];
+      for (const size_t row : {1U, 3U}) {
+        EXPECT_EQ(here.contact_velocity_m_s[row], std::ldexp(there.contact_velocity_m_s[row], v)) << w << " " << v;
+      }
+      EXPECT_EQ(here.energy_change_j, std::ldexp(there.energy_change_j, 2 * v - w)) << w << " " << v;
+    }
+  }
+}
+
+TEST(HardMultiContactTest, ANumberTooLargeForADoubleIsNamed) {
+  const auto response =
+      LocalSolver().MultiContact({.scene = PairOfContacts(1.0, -0.5, 1.0),
+                                  .methods = {MultiContactMethod::kPossible},
+                                  .outputs = {{.name = "body_sum", .coefficients = {1e308, 1e308, 1e308, 1e308}}}});
+  EXPECT_EQ(response.status().code(), absl::StatusCode::kOutOfRange);
+  EXPECT_THAT(std::string(response.status().message()), testing::HasSubstr("answers.possible"));
 }
 
 // The same contact beside another that is not coupled to it takes the way through all events of springs.
