@@ -67,8 +67,8 @@ struct SolveOptions {
 // True for the options that draw the impact.
 bool Draws(const SolveOptions& options) { return !options.picture.file.empty() || !options.html.empty(); }
 
-std::string Text(const Outcome& outcome, const SolveOptions& options) {
-  std::string text = SolveText(outcome);
+std::string Text(const Outcome& outcome, bool surface_moves, const SolveOptions& options) {
+  std::string text = SolveText(outcome, surface_moves);
   if (outcome.certificate.has_value()) text += CertificateText(*outcome.certificate);
   if (!outcome.derivatives.empty()) text += DerivativesText(outcome.derivatives);
   if (options.explain) absl::StrAppend(&text, "\n", PlanText(outcome.plan));
@@ -162,7 +162,7 @@ absl::Status RunSolve(const SolveOptions& options) {
   if (!response.ok()) return response.status();
   if (absl::Status still = RequireVelocity(*scene); !still.ok()) return still;
   absl::Status written = WriteAnswer(
-      options.common, *response, [&] { return Text(response->outcome, options); },
+      options.common, *response, [&] { return Text(response->outcome, scene->surface_velocity.has_value(), options); },
       [&] { return Csv(response->outcome, options); });
   if (!written.ok()) return written;
   if (!options.html.empty()) {

@@ -230,7 +230,7 @@ std::string ImpulseText(const Impulse& impulse) {
   return absl::StrCat("Impulse on the body\n", table.Render(2));
 }
 
-std::string WorkText(const Outcome& outcome) {
+std::string WorkText(const Outcome& outcome, bool surface_moves) {
   const WorkLedger& work = outcome.work;
   Table table;
   table.Add({"[J]", "compression", "restitution", "total"});
@@ -242,7 +242,9 @@ std::string WorkText(const Outcome& outcome) {
     table.Add({"  left in the spring", "", "", Rounded(-work.tangential_spring_j)});
     table.Add({"  lost to friction", "", "", Rounded(-work.friction_dissipation_j)});
   }
-  const char* change = outcome.contact.has_value() ? "work of all contact forces" : "change of kinetic energy";
+  const char* change = outcome.contact.has_value() ? "work of all contact forces"
+                       : surface_moves             ? "change of kinetic energy, with the surface's"
+                                                   : "change of kinetic energy";
   table.Add({change, "", "", Rounded(outcome.energy_change_j)});
   return absl::StrCat("Work on the body\n", table.Render(2));
 }
@@ -412,11 +414,11 @@ std::string WhatHappens(const Outcome& outcome) {
   return absl::StrCat(RegimeSentence(outcome.regime), on_spring ? " Its tangential spring moves it on." : "");
 }
 
-std::string SolveText(const Outcome& outcome) {
+std::string SolveText(const Outcome& outcome, bool surface_moves) {
   std::string text = absl::StrCat(WhatHappens(outcome), "\n", LineOf(TerminationText(outcome.termination)),
                                   Verdict(outcome), NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n",
                                   MotionText(outcome), BodiesText(outcome.bodies_after), CoordinatesText(outcome), "\n",
-                                  ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+                                  ImpulseText(outcome.impulse), "\n", WorkText(outcome, surface_moves));
   if (outcome.contact.has_value()) text += ContactText(*outcome.contact);
   text += EndsText(outcome);
   text += AlternativesText(outcome);

@@ -18,8 +18,8 @@ const char* TerminationText(Termination termination);
 // Returns what happens in an event: "slip stops".
 const char* EventText(EventKind kind);
 
-// Returns tables with units, to six digits.
-std::string SolveText(const Outcome& outcome);
+// Returns tables with units, to six digits. If the surface moves, works are those on velocities relative to it.
+std::string SolveText(const Outcome& outcome, bool surface_moves);
 
 // Returns a header and one row: every number of the outcome, named by its path, without the lists of events, states and
 // broken limits and without the certificate.

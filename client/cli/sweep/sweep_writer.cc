@@ -25,8 +25,8 @@ struct Count {
   Tally tally;
 };
 
-// Returns the regimes that occurred, the points that are inadmissible or did not converge, and the models that solved points, named by `name` and
-// `model_name`.
+// Returns the regimes that occurred, the points that are inadmissible or did not converge, and the models that solved
+// points, named by `name` and `model_name`.
 template <typename Name, typename NameOfModel>
 std::vector<Count> Counts(const SweepSummary& summary, Name name, NameOfModel model_name) {
   std::vector<Count> counts;

@@ -255,6 +255,18 @@ TEST(LocalSolverTest, AHistoryHasEitherImpulsesOrIntervals) {
               ElementsAre(Violation{"history_intervals", "= 65536: must be in [0, 65535]"}));
 }
 
+// A tangential spring changes the tangential impulse of a ball, whose normal motion it leaves alone.
+TEST(LocalSolverTest, BoundsOfATangentialSpringAreRefused) {
+  Scene ball = ExactScene();
+  ball.system = PlanarContact{3.5, 0.0, 1.0, 2.0, -3.0};
+  ball.restitution = std::monostate();
+  EXPECT_TRUE(LocalSolver().Bounds({.scene = ball}).ok());
+  ball.compliance = {.tangential_ratio_squared = 1.5, .normal = {}};
+  EXPECT_THAT(ViolationsOf(LocalSolver().Bounds({.scene = ball}).status()),
+              ElementsAre(Violation{"compliance.tangential_ratio_squared",
+                                    "is set: must not be, for bounds of a rigid contact"}));
+}
+
 // At the larger tolerance the plan leaves the compliance out, and slip in space follows a straight line.
 TEST(LocalSolverTest, WhichScenesHaveAHistoryDoesNotDependOnTheTolerance) {
   Scene soft = ExactScene();
