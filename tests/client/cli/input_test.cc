@@ -140,7 +140,7 @@ TEST(Rounded, ShowsSixDigitsAndNoNegativeZero) {
 TEST(SolveText, ShowsTheNotesOfAnOutcomeBelowItsVerdict) {
   Outcome outcome = {.admissible = true};
   outcome.notes = {{.text = "The duration was left out."}, {.text = "An angle lies beyond a full turn."}};
-  EXPECT_THAT(SolveText(outcome),
+  EXPECT_THAT(SolveText(outcome, false),
               HasSubstr("Admissible.\nNote: The duration was left out.\nNote: An angle lies beyond a full turn.\n\n"));
 }
 

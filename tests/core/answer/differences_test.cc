@@ -222,8 +222,9 @@ TEST(DifferencesTest, VelocityThatIsZeroDoesNotJump) {
   // A sphere that slides along x: v_y' = v_y - mu (1 + e) |v_z| v_y/|v|. Nothing turns it about z.
   const Scene sphere = {.system = SpatialBody{.mass_kg = 2.0,
                                               .inertia_com_kg_m2 = {0.2, 0.0, 0.0, 0.2, 0.0, 0.2},
-                                              .com_to_contact_m = {0.0, 0.0, -0.5},
-                                              .linear_m_s = {4.0, 0.0, -2.0}},
+                                              .offset_m = {0.0, 0.0, -0.5},
+                                              .linear_m_s = {4.0, 0.0, -2.0},
+                                              .angular_rad_s = {0.0, 0.0, 0.0}},
                         .friction = {.kinetic_coefficient = 0.1},
                         .restitution = EnergeticCoefficient{0.5}};
   const Derivative across = Only(sphere, "bodies_after[0].linear_m_s[1]", "spatial_body.linear_m_s[1]");
