@@ -114,19 +114,19 @@ absl::Status Call::CheckCaller() {
   return frame_.auth->StillAllows(context_, PathOf(record_.method), peer_key_) ? absl::OkStatus() : CallerRemoved();
 }
 
-absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work) {
+absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<absl::Status()> work) {
   if (absl::Status removed = CheckCaller(); !removed.ok()) return removed;
   const CallOptions limits = options();
   const double asked_s = elapsed_s();
   const ComputeRequest request = {
       .peer = peer_key_, .deadline = limits.deadline, .is_gone = limits.is_stopped, .cost = cost};
-  bool is_done = false;
+  std::optional<absl::Status> done;
   absl::Status computed = frame_.scheduler.Compute(request, [&] {
     record_.queued_s += elapsed_s() - asked_s;
-    is_done = true;
-    work();
+    done = work();
   });
-  if (!is_done) record_.queued_s += elapsed_s() - asked_s;
+  if (done.has_value()) return *std::move(done);
+  record_.queued_s += elapsed_s() - asked_s;
   return computed;
 }
 

@@ -69,9 +69,9 @@ class Call {
   // client cancels or vanishes, and when the drain asks for it. This object must outlive them.
   CallOptions options() const;
 
-  // Does the work when it is this call's turn, and returns OK; or returns the error for which it was not done, one of
-  // which is that the caller is no longer known. `cost` is absent for a part of a stream.
-  absl::Status Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work);
+  // Does the work when it is this call's turn, and returns what it returns; or returns the error for which it was not
+  // done, one of which is that the caller is no longer known. `cost` is absent for a part of a stream.
+  absl::Status Compute(std::optional<RequestCost> cost, absl::FunctionRef<absl::Status()> work);
 
   // Waits for the next message of the caller by `read`, which returns false if there is none. Returns what `read` does.
   // Errors: CANCELLED if the caller has ended the call, if it has sent nothing for as long as it may leave an answer

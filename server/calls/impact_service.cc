@@ -38,7 +38,6 @@ absl::Status ForwardStream(Call& call, absl::FunctionRef<ResultStream<T>()> open
   std::optional<ResultStream<T>> stream;
   typename ResultStream<T>::Iterator at;
   for (;;) {
-    absl::Status status;
     bool is_last = false;
     absl::Status computed = call.Compute(std::nullopt, [&] {
       if (stream.has_value()) {
@@ -48,13 +47,11 @@ absl::Status ForwardStream(Call& call, absl::FunctionRef<ResultStream<T>()> open
         at = stream->begin();
       }
       is_last = at == stream->end() || (at->ok() && (*at)->summary.has_value());
-      if (at == stream->end()) return;
-      status = at->status();
+      if (at == stream->end()) return absl::OkStatus();
       if (at->ok()) prepare(**at);
+      return at->status();
     });
-    if (!computed.ok()) return computed;
-    if (!status.ok()) return status;
-    if (at == stream->end()) return absl::OkStatus();
+    if (!computed.ok() || at == stream->end()) return computed;
     if (absl::Status sent = send(); !sent.ok() || is_last) return sent;
   }
 }
@@ -83,17 +80,14 @@ grpc::Status ImpactService::Answer(const char* name, Method method, grpc::Server
   if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
   call.record().received_bytes = static_cast<int64_t>(request.ByteSizeLong());
   const auto asked = FromProto(request);
-  absl::Status status;
-  const absl::Status computed = call.Compute(CostOf(asked), [&] {
+  return call.Finish(call.Compute(CostOf(asked), [&] {
     const auto answer = std::invoke(method, solver_, asked, call.options());
-    status = answer.status();
-    if (!answer.ok()) return;
+    if (!answer.ok()) return answer.status();
     CountModel(*answer, call.record());
     response = ToProto(*answer);
     call.record().sent_bytes = static_cast<int64_t>(response.ByteSizeLong());
-    status = call.HoldAnswer(call.record().sent_bytes);
-  });
-  return call.Finish(computed.ok() ? status : computed);
+    return call.HoldAnswer(call.record().sent_bytes);
+  }));
 }
 
 grpc::Status ImpactService::Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
@@ -153,13 +147,11 @@ grpc::Status ImpactService::SolveBatch(grpc::ServerContext* context, const v1::S
   if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
   call.record().received_bytes = static_cast<int64_t>(request->ByteSizeLong());
   BatchAnswer answer(solver_, call.options());
-  absl::Status status;
-  const absl::Status computed = call.Compute(answer.CostOf(*request), [&] {
-    status = answer.Fill(*request, *response, call.record());
+  return call.Finish(call.Compute(answer.CostOf(*request), [&] {
+    absl::Status filled = answer.Fill(*request, *response, call.record());
     call.record().sent_bytes = static_cast<int64_t>(response->ByteSizeLong());
-    if (status.ok()) status = call.HoldAnswer(call.record().sent_bytes);
-  });
-  return call.Finish(computed.ok() ? status : computed);
+    return filled.ok() ? call.HoldAnswer(call.record().sent_bytes) : filled;
+  }));
 }
 
 grpc::Status ImpactService::AnswerBatches(grpc::ServerContext& context, BoundedBatches& batches) const {
@@ -181,11 +173,9 @@ absl::Status ImpactService::Answer(BoundedBatches& batches, Call& call) const {
     v1::SolveBatchResponse response;
     // A step of a simulation is short and answered at once; a long batch takes its turn among the parts of streams.
     const RequestCost cost = answer.CostOf(request->message);
-    absl::Status status;
-    absl::Status computed = call.Compute(cost.is_cheap() ? std::optional(cost) : std::nullopt,
-                                         [&] { status = answer.Fill(request->message, response, call.record()); });
-    if (!computed.ok()) return computed;
-    if (!status.ok()) return status;
+    absl::Status filled = call.Compute(cost.is_cheap() ? std::optional(cost) : std::nullopt,
+                                       [&] { return answer.Fill(request->message, response, call.record()); });
+    if (!filled.ok()) return filled;
     const auto bytes = static_cast<int64_t>(response.ByteSizeLong());
     ++call.record().chunks;
     call.record().chunk_bytes += bytes;
