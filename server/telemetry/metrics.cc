@@ -59,10 +59,22 @@ std::string ReasonLabel(const std::string& reason) {
   return absl::c_linear_search(Reasons(), reason) ? reason : "OTHER";
 }
 
+// A metric whose value is asked for at each scrape.
+struct Asked {
+  std::string name;
+  std::string help;
+  prometheus::MetricType type;
+  std::function<double()> value;
+};
+
 }  // namespace
 
-// The metrics that calls count.
-struct Metrics::Counted {
+// The metrics that calls count, and those that are asked for.
+struct Metrics::State {
+  void Ask(Asked metric) {
+    const std::lock_guard lock(mutex);
+    asked.push_back(std::move(metric));
+  }
   Family<Counter>& AddCounters(const char* name, const char* help) {
     return BuildCounter().Name(name).Help(help).Register(registry);
   }
@@ -88,91 +100,67 @@ struct Metrics::Counted {
   Counter& resumes = AddCounter("ricochet_resumes_total", "Sweeps that were asked for from a point after the first.");
   Family<Counter>& refusals = AddCounters("ricochet_refusals_total", "Calls that failed with a reason.");
   Family<Counter>& solved = AddCounters("ricochet_solved_total", "Valid impacts by the model that the plan picked.");
+  std::mutex mutex;
+  std::vector<Asked> asked;  // Guarded by the mutex.
 };
 
-// Holds the metrics whose values are asked for at each scrape.
-class Metrics::Asked {
- public:
-  void Add(const std::string& name, const std::string& help, prometheus::MetricType type,
-           std::function<double()> value) {
-    const std::lock_guard lock(mutex_);
-    sources_.push_back({name, help, type, std::move(value)});
-  }
-
-  std::vector<prometheus::MetricFamily> Collect() const {
-    const std::lock_guard lock(mutex_);
-    std::vector<prometheus::MetricFamily> families;
-    for (const Source& source : sources_) {
-      prometheus::ClientMetric metric;
-      metric.gauge.value = metric.counter.value = source.value();
-      families.push_back({source.name, source.help, source.type, {metric}});
-    }
-    return families;
-  }
-
- private:
-  struct Source {
-    std::string name;
-    std::string help;
-    prometheus::MetricType type;
-    std::function<double()> value;
-  };
-  mutable std::mutex mutex_;
-  std::vector<Source> sources_;
-};
-
-Metrics::Metrics() : counted_(std::make_unique<Counted>()), asked_(std::make_unique<Asked>()) {
+Metrics::Metrics() : state_(std::make_unique<State>()) {
   BuildGauge()
       .Name("ricochet_info")
       .Help("Always 1; the labels name the version and the engine's fingerprint.")
-      .Register(counted_->registry)
+      .Register(state_->registry)
       .Add({{"version", ThisEngine().version}, {"engine", ThisEngine().fingerprint}})
       .Set(1);
   // A series that began with its first event would hide that event from rate() and increase().
-  for (const std::string& reason : Reasons()) counted_->refusals.Add({{"reason", reason}});
-  for (size_t model = 1; model < size_t{kModelCount}; ++model) counted_->solved.Add({{"model", ModelName(model)}});
+  for (const std::string& reason : Reasons()) state_->refusals.Add({{"reason", reason}});
+  for (size_t model = 1; model < size_t{kModelCount}; ++model) state_->solved.Add({{"model", ModelName(model)}});
 }
 
 Metrics::~Metrics() = default;
 
 void Metrics::Started(const std::string& method) {
-  counted_->started.Add({{"grpc_method", MethodLabel(method)}}).Increment();
+  state_->started.Add({{"grpc_method", MethodLabel(method)}}).Increment();
 }
 
 void Metrics::Ended(const CallRecord& call) {
   const std::map<std::string, std::string> labels = {{"grpc_method", MethodLabel(call.method)},
                                                      {"grpc_status", absl::StatusCodeToString(call.status)}};
-  counted_->duration.Add(labels, Seconds()).Observe(call.duration_s);
-  counted_->received.Add(labels, Bytes()).Observe(static_cast<double>(call.received_bytes));
-  counted_->sent.Add(labels, Bytes()).Observe(static_cast<double>(call.sent_bytes));
-  counted_->queued.Observe(call.queued_s);
-  counted_->points.Increment(static_cast<double>(call.points.value_or(0)));
-  counted_->chunks.Increment(static_cast<double>(call.chunks));
-  counted_->chunk_bytes.Increment(static_cast<double>(call.chunk_bytes));
-  counted_->stalls.Increment(static_cast<double>(call.stalls));
-  if (call.first_index > 0) counted_->resumes.Increment();
+  state_->duration.Add(labels, Seconds()).Observe(call.duration_s);
+  state_->received.Add(labels, Bytes()).Observe(static_cast<double>(call.received_bytes));
+  state_->sent.Add(labels, Bytes()).Observe(static_cast<double>(call.sent_bytes));
+  state_->queued.Observe(call.queued_s);
+  state_->points.Increment(static_cast<double>(call.points.value_or(0)));
+  state_->chunks.Increment(static_cast<double>(call.chunks));
+  state_->chunk_bytes.Increment(static_cast<double>(call.chunk_bytes));
+  state_->stalls.Increment(static_cast<double>(call.stalls));
+  if (call.first_index > 0) state_->resumes.Increment();
   if (!call.reason.empty()) Refused(call.reason);
   for (size_t model = 0; model < call.solved_by_model.size(); ++model) {
     const int64_t solved = call.solved_by_model[model];
-    if (solved > 0) counted_->solved.Add({{"model", ModelName(model)}}).Increment(static_cast<double>(solved));
+    if (solved > 0) state_->solved.Add({{"model", ModelName(model)}}).Increment(static_cast<double>(solved));
   }
 }
 
 void Metrics::Refused(const std::string& reason) {
-  counted_->refusals.Add({{"reason", ReasonLabel(reason)}}).Increment();
+  state_->refusals.Add({{"reason", ReasonLabel(reason)}}).Increment();
 }
 
 void Metrics::AddGauge(const std::string& name, const std::string& help, std::function<double()> value) {
-  asked_->Add(name, help, prometheus::MetricType::Gauge, std::move(value));
+  state_->Ask({name, help, prometheus::MetricType::Gauge, std::move(value)});
 }
 
 void Metrics::AddCounter(const std::string& name, const std::string& help, std::function<double()> value) {
-  asked_->Add(name, help, prometheus::MetricType::Counter, std::move(value));
+  state_->Ask({name, help, prometheus::MetricType::Counter, std::move(value)});
 }
 
 std::string Metrics::Text() const {
-  std::vector<prometheus::MetricFamily> families = counted_->registry.Collect();
-  for (prometheus::MetricFamily& family : asked_->Collect()) families.push_back(std::move(family));
+  std::vector<prometheus::MetricFamily> families = state_->registry.Collect();
+  const std::lock_guard lock(state_->mutex);
+  for (const Asked& asked : state_->asked) {
+    prometheus::ClientMetric metric;
+    metric.gauge.value = metric.counter.value = asked.value();
+    families.push_back({asked.name, asked.help, asked.type, {metric}});
+  }
   return prometheus::TextSerializer().Serialize(families);
 }
 

@@ -43,10 +43,8 @@ class Metrics {
   std::string Text() const;
 
  private:
-  struct Counted;
-  class Asked;
-  const std::unique_ptr<Counted> counted_;
-  const std::unique_ptr<Asked> asked_;
+  struct State;
+  const std::unique_ptr<State> state_;
 };
 
 }  // namespace ricochet::server
