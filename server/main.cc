@@ -111,7 +111,6 @@ int Run(int argc, const char* const* argv) {
     log.Write(LogLevel::kError, "cannot start", {{"reason", std::string(running.status().message())}});
     return 1;
   }
-  (*running)->AtHangUp([&log] { log.Reopen().IgnoreError(); });
   (*running)->ServeUntil(signals);
   log.Flush(kTimeForLog);
   // All calls have ended or used up their time. The exit closes their connections; destroying the server would wait for

@@ -197,7 +197,10 @@ void Server::LogAddresses(const std::string& event, const Endpoint& endpoint) co
 }
 
 void Server::ServeUntil(const Signals& signals) {
-  const std::string signal = signals.WaitForStop([this] { HangUp(); });
+  const std::string signal = signals.WaitForStop([this] {
+    log_.Write(LogLevel::kInfo, "reopening files", {{"signal", "SIGHUP"}});
+    log_.Reopen().IgnoreError();
+  });
   watchdog_ = {};
   serving_ = false;
   endpoint_->server().GetHealthCheckService()->SetServingStatus(false);
@@ -209,11 +212,6 @@ void Server::ServeUntil(const Signals& signals) {
   if (reflection_ != nullptr) reflection_->endpoint().acceptor().StopAccepting();
   if (!options_.port_file.empty()) RemovePortFile(options_.port_file, port());
   log_.Write(LogLevel::kInfo, "stopped", {{"live_calls", live_calls_.live()}});
-}
-
-void Server::HangUp() {
-  log_.Write(LogLevel::kInfo, "reopening files", {{"signal", "SIGHUP"}});
-  for (const std::function<void()>& reopen : reopen_) reopen();
 }
 
 int Server::port() const {

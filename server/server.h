@@ -4,10 +4,7 @@
 #define RICOCHET_SERVER_SERVER_H_
 
 #include <atomic>
-#include <functional>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -46,12 +43,9 @@ class Server {
   // Returns the port of the first TCP address, or 0 if it listens on Unix sockets only.
   int port() const;
 
-  // Makes `reopen` run at each SIGHUP, on the thread of ServeUntil. Call it before ServeUntil.
-  void AtHangUp(std::function<void()> reopen) { reopen_.push_back(std::move(reopen)); }
-
-  // Serves until a signal stops it, then drains. Call it once; afterwards the process must exit without destroying the
-  // server: a client that has stopped reading can block a write for ever, so that a thread may still use this object
-  // and its destruction may never end. The exit closes all connections.
+  // Serves until a signal stops it, then drains. At each SIGHUP it reopens the log. Call it once; afterwards the process
+  // must exit without destroying the server: a client that has stopped reading can block a write for ever, so that a
+  // thread may still use this object and its destruction may never end. The exit closes all connections.
   void ServeUntil(const Signals& signals);
 
  private:
@@ -62,7 +56,6 @@ class Server {
   void Watch();
   void SetServing(bool serving);
   void LogAddresses(const std::string& event, const Endpoint& endpoint) const;
-  void HangUp();
 
   const Options options_;
   const Log& log_;
@@ -73,7 +66,6 @@ class Server {
   Drain drain_;
   Scheduler scheduler_;
   UnreadWatch unread_;
-  std::vector<std::function<void()>> reopen_;
   const Observer observer_;
   std::atomic<bool> serving_ = false;  // The health of the service.
   ImpactService service_;
