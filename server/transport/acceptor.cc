@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
-#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
@@ -64,12 +63,6 @@ void Acceptor::StopAccepting() {
     thread_.join();
   }
   listeners_.clear();
-}
-
-void Acceptor::CloseConnections() {
-  const std::lock_guard lock(mutex_);
-  // gRPC closes its descriptor once it sees the end.
-  for (const auto& [number, connection] : connections_) shutdown(number, SHUT_RDWR);
 }
 
 Acceptor::Counts Acceptor::counts() const {

@@ -2,8 +2,7 @@
 //
 // It has an accept loop of its own because that of gRPC 1.51 stops for good once the process is out of descriptors
 // (CVE-2023-4785), limits nothing and does not tell when a connection ends. A connection that a limit refuses is closed
-// at once. For each connection the acceptor keeps a second descriptor, by which it notices the end and can bring it
-// about.
+// at once. For each connection the acceptor keeps a second descriptor, by which it notices the end.
 
 #ifndef RICOCHET_SERVER_TRANSPORT_ACCEPTOR_H_
 #define RICOCHET_SERVER_TRANSPORT_ACCEPTOR_H_
@@ -52,9 +51,6 @@ class Acceptor {
 
   // Stops to listen; from its return on, the handler is not called any more. Repeated calls do nothing.
   void StopAccepting();
-
-  // Ends every connection that is open, whatever its calls do.
-  void CloseConnections();
 
   Counts counts() const;
 

@@ -187,15 +187,6 @@ TEST(Acceptor, ServesAgainAfterDescriptorsRanOut) {
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
 }
 
-TEST(Acceptor, EndsConnectionsWhenTold) {
-  Accepting server({.in_all = 10, .per_peer = 10});
-  const Descriptor client = server.Connect();
-  EXPECT_TRUE(server.OpenBecomes(1));
-  server.acceptor().CloseConnections();
-  EXPECT_TRUE(IsClosed(client));
-  EXPECT_TRUE(server.OpenBecomes(0));
-}
-
 TEST(Acceptor, StoppedOneRefusesAndKeepsWhatIsOpen) {
   Accepting server({.in_all = 10, .per_peer = 10});
   const Descriptor client = server.Connect();
@@ -204,7 +195,7 @@ TEST(Acceptor, StoppedOneRefusesAndKeepsWhatIsOpen) {
   server.acceptor().StopAccepting();
   pollfd still_open = {.fd = client.number(), .events = POLLIN, .revents = 0};
   EXPECT_EQ(poll(&still_open, 1, 0), 0);
-  server.acceptor().CloseConnections();
+  server.DropAll();
   EXPECT_TRUE(IsClosed(client));
 }
 
