@@ -120,13 +120,6 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
       temporary_path_(std::exchange(other.temporary_path_, "")),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
-AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
-  std::swap(path_, other.path_);
-  std::swap(temporary_path_, other.temporary_path_);
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
-}
-
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) close(descriptor_);
   if (!temporary_path_.empty()) unlink(temporary_path_.c_str());
@@ -142,17 +135,16 @@ absl::Status AtomicFile::Commit() {
 }
 
 absl::StatusOr<Output> Output::Open(const std::string& path) {
-  const absl::Status none = absl::NotFoundError("no file");
-  if (IsStandardOutput(path)) return Output(none, STDOUT_FILENO, false);
+  if (IsStandardOutput(path)) return Output(std::nullopt, STDOUT_FILENO, false);
   if (IsDevice(path)) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0) return SystemError(absl::StrCat("cannot write ", path));
-    return Output(none, descriptor, true);
+    return Output(std::nullopt, descriptor, true);
   }
   absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
   if (!file.ok()) return file.status();
   const int descriptor = file->descriptor();
-  return Output(std::move(file), descriptor, false);
+  return Output(*std::move(file), descriptor, false);
 }
 
 Output::Output(Output&& other) noexcept
@@ -162,7 +154,7 @@ Output::~Output() {
   if (owned_) close(descriptor_);
 }
 
-absl::Status Output::Commit() { return file_.ok() ? file_->Commit() : absl::OkStatus(); }
+absl::Status Output::Commit() { return file_.has_value() ? file_->Commit() : absl::OkStatus(); }
 
 absl::Status WriteFile(const std::string& path, std::string_view text) {
   absl::StatusOr<Output> output = Output::Open(path);

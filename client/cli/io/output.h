@@ -3,6 +3,7 @@
 #ifndef RICOCHET_CLIENT_CLI_IO_OUTPUT_H_
 #define RICOCHET_CLIENT_CLI_IO_OUTPUT_H_
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,7 +39,6 @@ class AtomicFile {
   static absl::StatusOr<AtomicFile> Create(const std::string& path);
 
   AtomicFile(AtomicFile&& other) noexcept;
-  AtomicFile& operator=(AtomicFile&& other) noexcept;
   // Removes the temporary file unless it was committed.
   ~AtomicFile();
 
@@ -71,9 +71,9 @@ class Output {
   absl::Status Commit();
 
  private:
-  explicit Output(absl::StatusOr<AtomicFile> file, int descriptor, bool owned)
+  Output(std::optional<AtomicFile> file, int descriptor, bool owned)
       : file_(std::move(file)), descriptor_(descriptor), owned_(owned) {}
-  absl::StatusOr<AtomicFile> file_;  // Not OK if the output is not an AtomicFile.
+  std::optional<AtomicFile> file_;
   int descriptor_;
   bool owned_;  // True if the destructor closes `descriptor_`.
 };
