@@ -172,17 +172,17 @@ class Receiver {
     return output_.Write(chunk);
   }
 
-  // The points that an earlier run has written, which a picture needs once more.
-  std::optional<SweepRequest> Earlier(SweepRequest request) const {
-    if (!plot_.has_value() || output_.next_index() <= request.first_index) return std::nullopt;
+  // Computes the points that an earlier run has written once more for the picture, up to what it can show.
+  absl::Status DrawEarlier(const Solver& solver, SweepRequest request, std::stop_token stop) {
+    if (!plot_.has_value() || output_.next_index() <= request.first_index) return absl::OkStatus();
     request.end_index = output_.next_index();
-    return SweepPlot::Wanted(std::move(request));
-  }
-
-  // Draws the points of a chunk. Returns false if there are more than a picture can show.
-  bool Draw(const SweepChunk& chunk) {
-    plot_->Add(chunk);
-    return plot_->fits();
+    for (const absl::StatusOr<SweepChunk>& chunk :
+         solver.Sweep(SweepPlot::Wanted(std::move(request)), {.stop = std::move(stop)})) {
+      if (!chunk.ok()) return chunk.status();
+      plot_->Add(*chunk);
+      if (!plot_->fits()) break;
+    }
+    return absl::OkStatus();
   }
 
   absl::Status Commit() {
@@ -218,21 +218,10 @@ absl::Status ReceiveAll(SweepStream stream, Receiver& receiver) {
   return receiver.Commit();
 }
 
-absl::StatusOr<SweepOutput> OpenOutput(const SweepRequest& request, const SweepOptions& options) {
-  const CommonOptions& common = options.common;
-  if (IsResumable(options)) return SweepOutput::OpenPartial(request, common, options.resume);
-  return SweepOutput::Open(request, common, options.summary_only);
-}
-
 absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRequest& request,
                          const SweepOptions& options, std::stop_token stop) {
   Receiver receiver(request, options, std::move(output));
-  if (const std::optional<SweepRequest> earlier = receiver.Earlier(request); earlier.has_value()) {
-    for (const absl::StatusOr<SweepChunk>& chunk : solver.Sweep(*earlier, {.stop = stop})) {
-      if (!chunk.ok()) return chunk.status();
-      if (!receiver.Draw(*chunk)) break;
-    }
-  }
+  if (absl::Status drawn = receiver.DrawEarlier(solver, request, stop); !drawn.ok()) return drawn;
   absl::Status status = ReceiveAll(solver.Sweep(receiver.Remaining(request), {.stop = std::move(stop)}), receiver);
   if (status.ok()) status = receiver.Picture();
   if (status.ok()) return receiver.CheckStrictly();
@@ -242,7 +231,9 @@ absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRe
 
 absl::Status Receive(const Solver& solver, const SweepRequest& request, const SweepOptions& options,
                      std::stop_token stop) {
-  absl::StatusOr<SweepOutput> output = OpenOutput(request, options);
+  absl::StatusOr<SweepOutput> output = IsResumable(options)
+                                           ? SweepOutput::OpenPartial(request, options.common, options.resume)
+                                           : SweepOutput::Open(request, options.common, options.summary_only);
   if (!output.ok()) return output.status();
   return ReceiveInto(*std::move(output), solver, request, options, std::move(stop));
 }
