@@ -114,10 +114,7 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   if (!demand.ok()) return demand.status();
   request.demand = *demand;
   if (options.range.empty()) return request;
-  const absl::StatusOr<IndexRange> range = ParseRange(options.range);
-  if (!range.ok()) return range.status();
-  request.first_index = range->first;
-  request.end_index = range->end;
+  if (absl::Status wrong = ReadRange(options.range, request); !wrong.ok()) return wrong;
   return request;
 }
 

@@ -81,21 +81,20 @@ absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text, const Scene&
   return range;
 }
 
-absl::StatusOr<IndexRange> ParseRange(const std::string& text) {
+absl::Status ReadRange(const std::string& text, SweepRequest& request) {
   const std::vector<std::string> parts = Split(text, ':');
   if (parts.size() != 2) return InputError("--range", text, "be FIRST:END");
-  IndexRange range;
   if (!parts[0].empty()) {
     const absl::StatusOr<int64_t> first = ParseCount(parts[0], "--range, FIRST");
     if (!first.ok()) return first.status();
-    range.first = *first;
+    request.first_index = *first;
   }
   if (!parts[1].empty()) {
     const absl::StatusOr<int64_t> end = ParseCount(parts[1], "--range, END");
     if (!end.ok()) return end.status();
-    range.end = *end;
+    request.end_index = *end;
   }
-  return range;
+  return absl::OkStatus();
 }
 
 bool AsksForNames(const std::vector<std::string>& values) { return values == std::vector<std::string>{"?"}; }

@@ -4,11 +4,10 @@
 #ifndef RICOCHET_CLIENT_CLI_INPUT_AXIS_INPUT_H_
 #define RICOCHET_CLIENT_CLI_INPUT_AXIS_INPUT_H_
 
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/cli/input/command_options.h"
 #include "client/cli/input/scene_input.h"
@@ -23,13 +22,8 @@ namespace ricochet::cli {
 // values are valid.
 absl::StatusOr<Axis> ParseAxis(const std::string& text, const Scene& scene);
 
-struct IndexRange {
-  int64_t first = 0;
-  std::optional<int64_t> end;
-};
-
-// Reads "FIRST:END"; an empty FIRST means 0, an empty END the end of the grid. Errors: INVALID_ARGUMENT.
-absl::StatusOr<IndexRange> ParseRange(const std::string& text);
+// Reads "FIRST:END" into the range of `request`; an end that is empty stays as it is. Errors: INVALID_ARGUMENT.
+absl::Status ReadRange(const std::string& text, SweepRequest& request);
 
 // Reads "PATH=LOW:HIGH" by the rules of ParseAxis.
 absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text, const Scene& scene);

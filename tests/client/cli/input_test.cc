@@ -97,11 +97,15 @@ TEST(ParseAxis, TakesDegreesWhereTheFieldIsAnAngle) {
   EXPECT_FALSE(ParseFieldRange("a=1deg:2", kPendulum).ok());
 }
 
-TEST(ParseRange, MayLeaveEitherEndOpen) {
-  EXPECT_EQ(ParseRange("3:8").value().first, 3);
-  EXPECT_EQ(ParseRange("3:8").value().end, 8);
-  EXPECT_EQ(ParseRange(":8").value().first, 0);
-  EXPECT_EQ(ParseRange("3:").value().end, std::nullopt);
+TEST(ReadRange, MayLeaveEitherEndOpen) {
+  const auto read = [](const char* text) {
+    SweepRequest request;
+    EXPECT_TRUE(ReadRange(text, request).ok()) << text;
+    return std::pair(request.first_index, request.end_index);
+  };
+  EXPECT_EQ(read("3:8"), std::pair(int64_t{3}, std::optional<int64_t>(8)));
+  EXPECT_EQ(read(":8").first, 0);
+  EXPECT_EQ(read("3:").second, std::nullopt);
 }
 
 TEST(ParseFieldRange, TakesAPathAndTwoNumbers) {
