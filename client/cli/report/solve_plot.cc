@@ -15,9 +15,11 @@ namespace ricochet::cli {
 namespace {
 
 constexpr char kImpulse[] = "normal impulse τ [N s]";
+constexpr char kRestStyle[] = "with points pointtype 1 pointsize 1.5 linewidth 2 linecolor rgb '#404040'";
+constexpr char kStartStyle[] = "with points pointtype 7 pointsize 1.2 linecolor rgb '#404040'";
 constexpr char kEventStyle[] = "with points pointtype 6 pointsize 1.2 linewidth 2 linecolor rgb '#404040'";
-// Joins events between which the path is not straight.
-constexpr char kJoin[] = "with linespoints dashtype 3 pointtype 7 pointsize 0.8 linewidth 1.5 linecolor rgb '#0072B2'";
+// Joins events between which the path is not straight; the colour follows.
+constexpr char kJoin[] = "with linespoints dashtype 3 pointtype 7 pointsize 0.8 linewidth 1.5 linecolor rgb ";
 
 // --- Over the normal impulse, in a plane ---
 
@@ -111,8 +113,7 @@ Plot PlanarPlot(const Outcome& outcome) {
     MarkCompression(outcome, panel);
     if (is_straight) continue;
     for (size_t i = 0; i < panel.curves.size(); ++i) {
-      panel.curves[i].style = kJoin;
-      if (i > 0) panel.curves[i].style.replace(panel.curves[i].style.size() - 8, 7, "#D55E00");
+      panel.curves[i].style = absl::StrCat(kJoin, i == 0 ? "'#0072B2'" : "'#D55E00'");
     }
   }
   if (!is_straight) {
@@ -190,21 +191,15 @@ absl::StatusOr<std::vector<Event>> SpatialPath(const Solver& solver, const Scene
 Panel HodographPanel(const std::vector<Event>& path) {
   Panel panel{.title = "Slip hodograph", .x_label = "slip u1 [m/s]", .y_label = "slip u2 [m/s]", .equal_scales = true};
   Curve slip;
-  Curve events{.title = "", .points = {}, .style = kEventStyle};
-  Curve rest{.title = "no slip",
-             .points = {{0.0, 0.0}},
-             .style =
-                 "with points pointtype 1 pointsize 1.5 linewidth 2 "
-                 "linecolor rgb '#404040'"};
-  Curve start{.title = "contact starts", .points = {}, .style = kEventStyle};
+  Curve rest{.title = "no slip", .points = {{0.0, 0.0}}, .style = kRestStyle};
+  Curve start{.title = "contact starts", .points = {}, .style = kStartStyle};
+  Curve events{.title = "later events", .points = {}, .style = kEventStyle};
   for (const Event& event : path) {
     const Components& u = event.state.contact_velocity.tangential_m_s;
     slip.points.emplace_back(u.at(0), u.at(1));
     if (event.kind == EventKind::kUnspecified) continue;
     (event.kind == EventKind::kStart ? start : events).points.emplace_back(u.at(0), u.at(1));
   }
-  start.style = "with points pointtype 7 pointsize 1.2 linecolor rgb '#404040'";
-  events.title = "later events";
   panel.curves = {std::move(slip), std::move(rest), std::move(start), std::move(events)};
   return panel;
 }
