@@ -12,7 +12,7 @@ namespace ricochet::audit {
 
 std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact) {
   std::vector<Violation> violations = Validate(scene, RestitutionIs::kOptional, contact);
-  if (violations.empty()) RequireRigid(scene, "for an audit", violations);
+  if (violations.empty()) RequireRigid(scene, RigidIn::kNormal, "for an audit", violations);
   if (!violations.empty()) return violations;
   if (!contact.has_value()) contact.emplace(scene);
   if (std::visit([](const auto& reduction) { return reduction.w.back() == 0.0; }, contact->reduction)) {

@@ -189,7 +189,7 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
   if (!std::holds_alternative<std::monostate>(request.scene.impact_law)) {
     violations.push_back(MakeViolation("impact_law", "is set", "not be, for bounds"));
   }
-  if (violations.empty()) RequireRigid(request.scene, "for bounds", violations);
+  if (violations.empty()) RequireRigid(request.scene, RigidIn::kBothDirections, "for bounds", violations);
   for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
   CheckDigits(request.scene, request.certified_digits, violations);
   if (violations.empty() && request.derivatives.has_value()) {

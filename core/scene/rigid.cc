@@ -13,13 +13,15 @@ bool IsCoupled(const Scene& scene) { return std::get<PlanarReduction>(Reduce(sce
 
 }  // namespace
 
-void RequireRigid(const Scene& scene, const char* purpose, std::vector<Violation>& violations) {
+void RequireRigid(const Scene& scene, RigidIn directions, const char* purpose, std::vector<Violation>& violations) {
   if (!scene.compliance.has_value()) return;
   const auto refuse = [&](const char* field) {
     violations.push_back(MakeViolation(field, "is set", absl::StrCat("not be, ", purpose, " of a rigid contact")));
   };
   const bool has_tangential = scene.compliance->tangential_ratio_squared.has_value();
-  if (has_tangential && IsCoupled(scene)) refuse("compliance.tangential_ratio_squared");
+  if (has_tangential && (directions == RigidIn::kBothDirections || IsCoupled(scene))) {
+    refuse("compliance.tangential_ratio_squared");
+  }
   const bool has_spring = !std::holds_alternative<std::monostate>(scene.compliance->normal);
   const bool has_forces = !std::holds_alternative<std::monostate>(scene.finite_forces);
   if (has_spring && has_forces) refuse("finite_forces");

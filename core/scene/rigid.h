@@ -10,9 +10,12 @@
 
 namespace ricochet {
 
+// What must be that of a rigid contact.
+enum class RigidIn { kNormal, kBothDirections };
+
 // A spring along the normal alone changes no velocity after the impact, and one along the tangent none of the normal
 // velocities where Wtn = 0. All other rules of the scene must hold. `purpose` begins the reason: "for an audit".
-void RequireRigid(const Scene& scene, const char* purpose, std::vector<Violation>& violations);
+void RequireRigid(const Scene& scene, RigidIn directions, const char* purpose, std::vector<Violation>& violations);
 
 }  // namespace ricochet
 

@@ -1,9 +1,11 @@
 #include "client/cli/report/solve_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/types/span.h"
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
@@ -75,11 +77,15 @@ std::string Verdict(const End& outcome) {
   // There is no outcome to judge.
   if (!HasEnd(outcome.termination)) return "";
   if (outcome.admissible) return "Admissible.\n";
-  const bool friction_alone =
-      outcome.broken_limits.size() == 1 && outcome.broken_limits.front().kind == LimitKind::kFriction;
-  std::string text = friction_alone
-                         ? "INADMISSIBLE: friction would push along the slip.\n"
-                         : "INADMISSIBLE: the coefficient would return more energy than the impact stored.\n";
+  const auto breaks = [&outcome](LimitKind kind) {
+    return std::any_of(outcome.broken_limits.begin(), outcome.broken_limits.end(),
+                       [kind](const BrokenLimit& broken) { return broken.kind == kind; });
+  };
+  std::vector<const char*> causes;
+  if (breaks(LimitKind::kSharp)) causes.push_back("the coefficient would return more energy than the impact stored");
+  if (breaks(LimitKind::kFriction)) causes.push_back("friction would push along the slip");
+  if (causes.empty()) causes.push_back("the impact would create kinetic energy");
+  const std::string text = absl::StrCat("INADMISSIBLE: ", absl::StrJoin(causes, ", and "), ".\n");
   Table table;
   table.Add({"broken limit", "value", "limit", "excess"});
   for (const BrokenLimit& broken : outcome.broken_limits) {
@@ -129,9 +135,15 @@ std::string RoundedUp(double value) {
 
 std::string AccuracyText(const Outcome& outcome) {
   const Accuracy& accuracy = outcome.accuracy;
+  if (std::isinf(accuracy.relative_error)) return "  relative error of the contact velocity: not known\n";
   const double tolerance = outcome.plan.relative_tolerance;
+  // The error leaves out what W and the velocity of the contact lose where they are made of other numbers.
+  const bool is_reduced =
+      !outcome.bodies_after.empty() || !outcome.rates_after.empty() || outcome.rates_after_rad_s.size() > 1;
   std::string text = absl::StrCat("  relative error of the contact velocity <= ", RoundedUp(accuracy.relative_error),
-                                  accuracy.kind == AccuracyKind::kBound ? " (proved)" : " (estimated)");
+                                  accuracy.kind != AccuracyKind::kBound ? " (estimated)"
+                                  : is_reduced                          ? " (proved, for W as rounded)"
+                                                                        : " (proved)");
   if (accuracy.steps > 0) absl::StrAppend(&text, ", ", accuracy.steps, " steps");
   // Tolerance 0 asks for all effects, in double precision.
   if (tolerance > 0.0 && accuracy.relative_error > tolerance) {
@@ -377,7 +389,7 @@ const char* TerminationText(Termination termination) {
     case Termination::kBudgetUsedUp:
       return "Not converged: the model's budget of steps ran out before the contact separated.";
     case Termination::kRefused:
-      return "No answer: the contact never separates, rounding has destroyed its path, or the law has no solution.";
+      return "No answer: the impact has no end that is known, and what follows is the state that was reached.";
     case Termination::kLessAccurate:
       return "Less accurate than asked: the stated error exceeds the tolerance.";
     case Termination::kUnspecified:
@@ -409,8 +421,11 @@ const char* EventText(EventKind kind) {
 
 std::string WhatHappens(const Outcome& outcome) {
   // On a tangential spring the contact moves on after it has stuck.
-  const bool on_spring = outcome.plan.model == Model::kCompliant && (outcome.regime == Regime::kStickInCompression ||
-                                                                     outcome.regime == Regime::kStickInRestitution);
+  const bool may_have_spring =
+      outcome.plan.model == Model::kCompliant ||
+      (outcome.plan.model == Model::kFiniteDuration && outcome.contact_velocity_after.tangential_m_s[0] != 0.0);
+  const bool on_spring = may_have_spring && (outcome.regime == Regime::kStickInCompression ||
+                                             outcome.regime == Regime::kStickInRestitution);
   return absl::StrCat(RegimeSentence(outcome.regime), on_spring ? " Its tangential spring moves it on." : "");
 }
 
