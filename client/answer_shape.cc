@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <variant>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -44,6 +45,8 @@ void CheckOutcome(size_t contacts, size_t numbers, size_t system, const Attained
   lengths.ExpectOrNone("impulses", outcome.impulse_n_s, numbers);
   lengths.ExpectOrNone("errors of impulses", outcome.normal_impulse_error_n_s, contacts);
   lengths.ExpectOrNone("contacts", outcome.contacts, contacts);
+  // Each of the contacts is shown with its impulse.
+  if (!outcome.contacts.empty()) lengths.Expect("impulses", outcome.impulse_n_s, numbers);
 }
 
 void CheckAnswer(const MultiContactRequest& request, const MultiContactAnswer& answer, Lengths& lengths) {
@@ -63,7 +66,35 @@ void CheckAnswer(const MultiContactRequest& request, const MultiContactAnswer& a
                   "varies a stiffness that the request does not");
 }
 
+// `end` is an Outcome or a FreeEnd.
+template <typename End>
+void CheckEnd(size_t tangential, size_t coordinates, const End& end, Lengths& lengths) {
+  lengths.Expect("tangential velocities", end.contact_velocity_after.tangential_m_s, tangential);
+  lengths.Expect("tangential impulses", end.impulse.tangential_n_s, tangential);
+  lengths.Expect("rates", end.rates_after, coordinates);
+}
+
+void CheckState(size_t tangential, const State& state, Lengths& lengths) {
+  lengths.Expect("tangential velocities of a state", state.contact_velocity.tangential_m_s, tangential);
+  lengths.Expect("tangential impulses of a state", state.tangential_impulse_n_s, tangential);
+}
+
 }  // namespace
+
+absl::Status CheckShape(const SolveRequest& request, const SolveResponse& response) {
+  Lengths lengths;
+  const Outcome& outcome = response.outcome;
+  const size_t tangential = TangentialDirections(request.scene.system);
+  const auto* const mechanism = std::get_if<Mechanism>(&request.scene.system);
+  const size_t coordinates = mechanism == nullptr ? 0 : mechanism->rates.size();
+  CheckEnd(tangential, coordinates, outcome, lengths);
+  lengths.Expect("momenta", outcome.momentum_change, coordinates);
+  lengths.Expect("errors of rates", outcome.errors.rates_after, coordinates);
+  if (outcome.free_end.has_value()) CheckEnd(tangential, coordinates, *outcome.free_end, lengths);
+  for (const Event& event : outcome.timeline) CheckState(tangential, event.state, lengths);
+  for (const State& state : outcome.history) CheckState(tangential, state, lengths);
+  return lengths.status();
+}
 
 absl::Status CheckShape(const FitRequest& request, const FitResponse& response) {
   Lengths lengths;

@@ -7,10 +7,12 @@
 #include "absl/status/status.h"
 #include "ricochet/fit.h"
 #include "ricochet/multi_contact.h"
+#include "ricochet/solver.h"
 
 namespace ricochet {
 
 // Errors: DATA_LOSS that names the list, its length and the right one.
+absl::Status CheckShape(const SolveRequest& request, const SolveResponse& response);
 absl::Status CheckShape(const FitRequest& request, const FitResponse& response);
 absl::Status CheckShape(const MultiContactRequest& request, const MultiContactResponse& response);
 

@@ -17,6 +17,7 @@
 #include "client/cli/terminal/progress.h"
 #include "client/cli/text/json_text.h"
 #include "core/audit/audit_scene.h"
+#include "core/base/counted.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
 
@@ -135,7 +136,7 @@ class Auditor {
 
   absl::Status Finish() {
     if (named_ > kNamedRows) {
-      absl::StrAppend(&ending_.first_invalid, "  and ", named_ - kNamedRows, " more invalid rows; ",
+      absl::StrAppend(&ending_.first_invalid, "  and ", Counted(named_ - kNamedRows, "more invalid row"), "; ",
                       writer_.WhereAllAre(), "\n");
     }
     if (absl::Status status = output_.Write(writer_.End(ending_)); !status.ok()) return status;

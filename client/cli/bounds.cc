@@ -20,6 +20,7 @@
 #include "client/cli/report/derivatives_report.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
+#include "core/base/counted.h"
 #include "core/scene/field.h"
 #include "proto/wire/requests.h"
 
@@ -148,8 +149,8 @@ std::string EnclosureText(const Enclosure& enclosure, const std::vector<FieldRan
           ? "A guaranteed range is infinite: friction may lock the contact, or W may be nearly singular"
           : absl::StrCat("Guaranteed ranges are at most ", Rounded(100.0 * enclosure.excess),
                          " % wider than those found");
-  return absl::StrCat(text, "\n", table.Render(0), excess, " (", enclosure.boxes,
-                      enclosure.boxes == 1 ? " sub-range examined).\n" : " sub-ranges examined).\n");
+  return absl::StrCat(text, "\n", table.Render(0), excess, " (", Counted(enclosure.boxes, "sub-range"),
+                      " examined).\n");
 }
 
 std::string BoundsText(const BoundsRequest& request, const BoundsResponse& response) {

@@ -22,6 +22,7 @@
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/json_text.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/counted.h"
 #include "core/rows/column.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/engine.h"
@@ -136,8 +137,8 @@ std::string SummaryText(const Solved& solved) {
   for (size_t i = 0; i < solved.regimes.size(); ++i) {
     inexact += solved.statuses[i] == RowStatus::kNotConverged && HasEnd(solved.regimes[i]) ? 1 : 0;
   }
-  std::string text = absl::StrCat(summary.counts.points, summary.counts.points == 1 ? " row, " : " rows, ", invalid,
-                                  " without numbers, ", summary.counts.inadmissible.count, " inadmissible, ", endless,
+  std::string text = absl::StrCat(Counted(summary.counts.points, "row"), ", ", invalid, " without numbers, ",
+                                  summary.counts.inadmissible.count, " inadmissible, ", endless,
                                   " without an end or a solution, ", inexact, " less accurate than asked\n");
   for (const BadRow& bad : summary.bad_rows) {
     absl::StrAppend(&text, "  row ", bad.row, " (line ", solved.lines[static_cast<size_t>(bad.row)], "): ", bad.field,
@@ -180,9 +181,9 @@ std::string Text(const Solved& solved, Format format, size_t count) {
     absl::StrAppend(&text, ",\"summary\":", JsonOf(ToProto(solved.response.summary)), "}\n");
   } else if (format == Format::kText) {
     const size_t left_out = solved.regimes.size() - count;
-    if (left_out > 0)
-      absl::StrAppend(&text, "... and ", left_out, left_out == 1 ? " more row" : " more rows",
-                      "; --format csv has them all\n");
+    if (left_out > 0) {
+      absl::StrAppend(&text, "... and ", Counted(left_out, "more row"), "; --format csv has them all\n");
+    }
     absl::StrAppend(&text, "\n", SummaryText(solved));
   }
   return text;

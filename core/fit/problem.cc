@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "core/answer/derivative_paths.h"
+#include "core/base/counted.h"
 #include "core/base/decimal.h"
 #include "core/base/nearest.h"
 #include "core/scene/field.h"
@@ -144,7 +145,7 @@ class Door {
   // True if a list has an entry for each row; `may_be_one` allows it one for all.
   bool HasRows(const std::string& field, size_t size, bool may_be_one) {
     if (size == problem_.rows || (may_be_one && size == 1)) return true;
-    Refuse(field, absl::StrCat("has ", size, size == 1 ? " number" : " numbers"),
+    Refuse(field, absl::StrCat("has ", Counted(size, "number")),
            absl::StrCat("have ", problem_.rows, ", one for each row", may_be_one ? ", or one for all" : ""));
     return false;
   }

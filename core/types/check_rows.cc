@@ -7,6 +7,7 @@
 
 #include "absl/functional/function_ref.h"
 #include "absl/strings/str_cat.h"
+#include "core/base/counted.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
@@ -14,14 +15,14 @@ namespace {
 
 void CheckCount(const char* list, size_t found, size_t wanted, const char* named, std::vector<Violation>& violations) {
   if (found == wanted) return;
-  violations.push_back(MakeViolation(list, absl::StrCat("has ", found, found == 1 ? " column" : " columns"),
+  violations.push_back(MakeViolation(list, absl::StrCat("has ", Counted(found, "column")),
                                      absl::StrCat("have ", wanted, ", one for each of ", named)));
 }
 
 // `name` is asked for if the column is wrong.
 void CheckLength(size_t found, size_t rows, absl::FunctionRef<std::string()> name, std::vector<Violation>& violations) {
   if (found == rows || IsFull(violations)) return;
-  violations.push_back(MakeViolation(name(), absl::StrCat("has ", found, found == 1 ? " row" : " rows"),
+  violations.push_back(MakeViolation(name(), absl::StrCat("has ", Counted(found, "row")),
                                      absl::StrCat("have ", rows, ", as many as inputs[0]")));
 }
 

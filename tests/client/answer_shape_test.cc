@@ -1,4 +1,4 @@
-// Answers to fits and to several contacts that a caller could not index are refused.
+// Answers that a caller could not index are refused.
 
 #include "client/answer_shape.h"
 
@@ -27,6 +27,30 @@ void ExpectRefused(const Request& request, const Response& right,
     EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss) << "change " << i;
     EXPECT_THAT(std::string(status.message()), testing::StartsWith("the answer ")) << "change " << i;
   }
+}
+
+TEST(AnswerShape, OfImpacts) {
+  const SolveRequest request = {.scene = {.system = Mechanism{.mass_matrix = {2.0, 0.3, 0.3, 1.5},
+                                                              .jacobian = {1.0, 0.5, 0.2, 0.7},
+                                                              .rates = {0.4, -1.9},
+                                                              .kept_coordinates = {0}},
+                                          .friction = {.kinetic_coefficient = 0.3},
+                                          .restitution = EnergeticCoefficient{0.7}},
+                                .history_intervals = 3,
+                                .both_ends = true};
+  const auto response = LocalSolver().Solve(request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  using Response = SolveResponse;
+  ExpectRefused<SolveRequest, Response>(
+      request, *response,
+      {[](Response& answer) { answer.outcome.contact_velocity_after.tangential_m_s.clear(); },
+       [](Response& answer) { answer.outcome.impulse.tangential_n_s.push_back(0.0); },
+       [](Response& answer) { answer.outcome.rates_after.pop_back(); },
+       [](Response& answer) { answer.outcome.momentum_change.pop_back(); },
+       [](Response& answer) { answer.outcome.errors.rates_after.clear(); },
+       [](Response& answer) { answer.outcome.free_end->rates_after.clear(); },
+       [](Response& answer) { answer.outcome.timeline[0].state.tangential_impulse_n_s.clear(); },
+       [](Response& answer) { answer.outcome.history[1].contact_velocity.tangential_m_s.push_back(0.0); }});
 }
 
 TEST(AnswerShape, OfFits) {
@@ -62,6 +86,7 @@ TEST(AnswerShape, OfSeveralContacts) {
        [](Response& answer) { answer.answers[0].orders.back().velocity.push_back(0.0); },
        [](Response& answer) { answer.answers[0].springs->velocity_error.clear(); },
        [](Response& answer) { answer.answers[0].springs->impulse_n_s.pop_back(); },
+       [](Response& answer) { answer.answers[0].springs->impulse_n_s.clear(); },
        [](Response& answer) { answer.answers[0].stiffness_samples[1].outcome.velocity.pop_back(); },
        [](Response& answer) { answer.answers[0].orders[0].contacts.pop_back(); },
        [](Response& answer) { answer.answers[0].possible.resize(2); }});

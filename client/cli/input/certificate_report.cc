@@ -8,6 +8,7 @@
 #include "absl/strings/str_join.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/counted.h"
 #include "core/base/decimal.h"
 
 namespace ricochet::cli {
@@ -30,7 +31,7 @@ std::string CertificateText(const Certificate& certificate) {
   size_t width = 0;
   for (const CertifiedNumber& number : certificate.numbers) width = std::max(width, number.path.size());
   std::string text =
-      absl::StrCat("\nProved to ", certificate.digits, certificate.digits == 1 ? " digit" : " digits",
+      absl::StrCat("\nProved to ", Counted(certificate.digits, "digit"),
                    certificate.is_set ? ", some numbers as ranges: " : ": ", regimes, " (= marks exact values)\n");
   for (const CertifiedNumber& number : certificate.numbers) {
     const char* const relation = number.decimal.empty() ? "in" : number.exact ? "= " : "  ";

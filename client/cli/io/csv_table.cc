@@ -11,6 +11,7 @@
 #include "absl/strings/str_replace.h"
 #include "absl/strings/strip.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/counted.h"
 #include "core/base/nearest.h"
 
 namespace ricochet::cli {
@@ -72,7 +73,7 @@ bool CsvReader::ReadLine(std::string& line) {
 
 std::string CsvReader::WhyNoRow(const std::vector<std::string>& cells) const {
   if (cells.size() == header_.size()) return "";
-  return absl::StrCat("has ", cells.size(), cells.size() == 1 ? " cell" : " cells", ": must have ", header_.size(),
+  return absl::StrCat("has ", Counted(cells.size(), "cell"), ": must have ", header_.size(),
                       cells.size() < header_.size() ? "; what is unknown has an empty cell"
                                                     : "; a number has a decimal point, not a comma");
 }

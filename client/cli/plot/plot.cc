@@ -18,6 +18,7 @@
 #include "client/cli/plot/plot_curves.h"
 #include "client/cli/plot/plot_layout.h"
 #include "client/cli/plot/plot_scale.h"
+#include "core/base/counted.h"
 #include "core/base/decimal.h"
 
 namespace ricochet::cli {
@@ -190,7 +191,7 @@ Drawing DrawingOf(const Panel& panel, const Layout& layout) {
   add(panel.title);
   add(OutsideText(axes.scale));
   if (axes.left_out > 0) {
-    add(absl::StrCat(axes.left_out, axes.left_out == 1 ? " point" : " points", " at or below 0 not shown"));
+    add(absl::StrCat(Counted(axes.left_out, "point"), " at or below 0 not shown"));
   }
   return {panel, std::move(cells), axes, LegendOf(panel, layout), absl::StrJoin(lines, "\n")};
 }

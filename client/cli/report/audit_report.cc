@@ -10,6 +10,7 @@
 #include "client/cli/input/command_options.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
+#include "core/base/counted.h"
 
 namespace ricochet::cli {
 namespace {
@@ -177,7 +178,7 @@ std::string AuditSummaryText(const AuditSummary& summary) {
     table.Add({absl::StrCat("breaks ", name.title), absl::StrCat(summary.broken[i].count), FirstText(summary.broken[i]),
                absl::StrCat(summary.within_uncertainty[i].count), Rounded(summary.largest_excess[i])});
   }
-  return absl::StrCat(summary.rows, summary.rows == 1 ? " row\n" : " rows\n", table.Render(2));
+  return absl::StrCat(Counted(summary.rows, "row"), "\n", table.Render(2));
 }
 
 std::string AuditComplaint(const AuditReport& report, const std::string& invalid_reason) {

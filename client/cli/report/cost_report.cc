@@ -11,6 +11,7 @@
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
 #include "client/cli/text/wrap.h"
+#include "core/base/counted.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/plan.h"
 
@@ -199,7 +200,7 @@ std::vector<bool> OnFront(const CostChunk& study) {
 
 std::string CostText(const CostChunk& study) {
   const CostSummary& summary = *study.summary;
-  return absl::StrCat(Wrapped(absl::StrCat(study.rows.size(), study.rows.size() == 1 ? " method" : " methods",
+  return absl::StrCat(Wrapped(absl::StrCat(Counted(study.rows.size(), "method"),
                                            " for one impact. The exact answer: ", summary.reference_source, ".")),
                       "\n", MethodsText(study), "\n",
                       summary.front.empty() ? "" : "* on the Pareto front: none is as fast and as exact. ",

@@ -10,6 +10,7 @@
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
+#include "core/base/counted.h"
 #include "proto/wire/fit.h"
 
 namespace ricochet::cli {
@@ -94,7 +95,7 @@ std::string ResidualsText(const FitRequest& request, const FitResponse& response
   const size_t left_out = response.rows.size() - shown;
   return absl::StrCat("\nResiduals [sigma]\n", table.Render(2),
                       left_out == 0 ? ""
-                                    : absl::StrCat("  ... and ", left_out, left_out == 1 ? " more row" : " more rows",
+                                    : absl::StrCat("  ... and ", Counted(left_out, "more row"),
                                                    "; --format csv --rows has them all\n"));
 }
 

@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/types/span.h"
+#include "core/base/counted.h"
 #include "core/plan/demand_fields.h"
 #include "core/plan/number_demand.h"
 #include "core/rows/axis_values.h"
@@ -78,7 +79,7 @@ std::string DoubtfulPoints::Text() const {
   std::string text;
   const auto add = [&text](const Tally& tally, absl::string_view verb, absl::string_view what) {
     if (tally.count == 0) return;
-    absl::StrAppend(&text, tally.count, tally.count == 1 ? " point" : " points", verb,
+    absl::StrAppend(&text, Counted(tally.count, "point"), verb,
                     tally.count == 1 ? ", at index " : ", the first at index ", tally.first_index, what, "\n");
   };
   const int64_t invalid = summary_.by_regime[static_cast<size_t>(Regime::kInvalid)].count;

@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/base/counted.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet::cli {
@@ -86,7 +87,7 @@ absl::Status CheckCoverage(std::vector<ShardFile>& shards) {
   if (faults.size() > kMostFaults) {
     const size_t more = faults.size() - kMostFaults;
     faults.resize(kMostFaults);
-    faults.push_back(absl::StrCat("and ", more, " more faults"));
+    faults.push_back(absl::StrCat("and ", Counted(more, "more fault")));
   }
   return absl::FailedPreconditionError(
       absl::StrCat("the shards do not make up the sweep:\n  ", absl::StrJoin(faults, "\n  ")));

@@ -16,6 +16,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/io/csv_table.h"
 #include "client/cli/sweep/sweep_rows.h"
+#include "core/base/counted.h"
 
 namespace ricochet::cli {
 namespace {
@@ -37,7 +38,7 @@ absl::Status AddCell(const std::string& name, const std::string& text, size_t ce
 absl::Status AddRow(const std::vector<std::string>& names, const std::vector<std::string>& cells, SweepRows& rows) {
   if (cells.size() != names.size()) {
     return absl::InvalidArgumentError(
-        absl::StrCat("has ", cells.size(), cells.size() == 1 ? " cell" : " cells", ": must have ", names.size()));
+        absl::StrCat("has ", Counted(cells.size(), "cell"), ": must have ", names.size()));
   }
   for (size_t i = 0; i < names.size(); ++i) {
     if (absl::Status status = AddCell(names[i], cells[i], i, rows); !status.ok()) return status;

@@ -12,6 +12,7 @@
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/json_text.h"
 #include "client/cli/text/table.h"
+#include "core/base/counted.h"
 #include "proto/wire/plan.h"
 #include "proto/wire/sweep.h"
 
@@ -44,7 +45,7 @@ std::vector<Count> Counts(const SweepSummary& summary, Name name, NameOfModel mo
 }
 
 std::string SummaryText(const SweepSummary& summary) {
-  std::string text = absl::StrCat(summary.points, summary.points == 1 ? " point" : " points");
+  std::string text = Counted(summary.points, "point");
   if (summary.elapsed_s.has_value()) absl::StrAppend(&text, " in ", Rounded(*summary.elapsed_s), " s");
   const auto by_model = [](Model model) { return absl::StrCat("by model ", ModelText(model)); };
   Table table;
@@ -138,7 +139,8 @@ class PointWriter {
     rows_.End(text);
     if (format_ == Format::kText) {
       const int64_t left_out = chunk.points_total - shown_;
-      if (left_out > 0) absl::StrAppend(&text, "... and ", left_out, " more points; --format csv has them all\n");
+      if (left_out > 0)
+        absl::StrAppend(&text, "... and ", Counted(left_out, "more point"), "; --format csv has them all\n");
       absl::StrAppend(&text, "\n", SummaryText(*chunk.summary));
     } else if (format_ == Format::kJson) {
       // A time would make the file of each run another one.
