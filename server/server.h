@@ -43,9 +43,9 @@ class Server {
   // Returns the port of the first TCP address, or 0 if it listens on Unix sockets only.
   int port() const;
 
-  // Serves until a signal stops it, then drains. At each SIGHUP it reopens the log. Call it once; afterwards the process
-  // must exit without destroying the server: a client that has stopped reading can block a write for ever, so that a
-  // thread may still use this object and its destruction may never end. The exit closes all connections.
+  // Serves until a signal stops it, then drains. At each SIGHUP it reopens the log. Call it once; afterwards the
+  // process must exit without destroying the server: a client that has stopped reading can block a write for ever, so
+  // that a thread may still use this object and its destruction may never end. The exit closes all connections.
   void ServeUntil(const Signals& signals);
 
  private:
