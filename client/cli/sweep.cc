@@ -220,8 +220,10 @@ absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRe
   Receiver receiver(request, options, std::move(output));
   if (absl::Status drawn = receiver.DrawEarlier(solver, request, stop); !drawn.ok()) return drawn;
   absl::Status status = ReceiveAll(solver.Sweep(receiver.Remaining(request), {.stop = std::move(stop)}), receiver);
-  if (status.ok()) status = receiver.Picture();
-  if (status.ok()) return receiver.CheckStrictly();
+  if (status.ok()) {
+    absl::Status drawn = receiver.Picture();
+    return drawn.ok() ? receiver.CheckStrictly() : drawn;
+  }
   receiver.output().LeaveForResume(ResumeCommand(options.arguments));
   return status;
 }

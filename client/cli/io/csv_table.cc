@@ -80,9 +80,9 @@ std::string CsvReader::WhyNoRow(const std::vector<std::string>& cells) const {
 
 absl::Status CsvReader::CheckEnd() const {
   if (!ends_in_quotes_) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(name_, ", line ", number_,
-                                                 " begins a cell in quotes that has all lines",
-                                                 " to the end: must have a quote at its end"));
+  return absl::InvalidArgumentError(absl::StrCat(
+      name_, ", line ", number_,
+      " begins a cell in quotes that does not end, which has all lines after it: must have a quote at its end"));
 }
 
 void CsvReader::Append(const std::vector<std::string>& cells, CsvTable& table) const {

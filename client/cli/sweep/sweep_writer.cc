@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "client/cli/io/row_writer.h"
 #include "client/cli/report/invalid_points.h"
 #include "client/cli/sweep/sweep_head.h"
@@ -51,7 +52,7 @@ std::string SummaryText(const SweepSummary& summary) {
   Table table;
   table.Add({"", "points", "first at index"});
   for (const Count& count : Counts(summary, RegimeText, by_model)) {
-    table.Add({count.name, absl::StrCat(count.tally.count),
+    table.Add({absl::StrReplaceAll(count.name, {{"_", " "}}), absl::StrCat(count.tally.count),
                count.tally.count > 0 ? absl::StrCat(count.tally.first_index) : "-"});
   }
   return absl::StrCat(text, "\n", table.Render(2));

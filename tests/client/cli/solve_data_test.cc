@@ -140,7 +140,7 @@ TEST_F(CliSolveData, ACellInQuotesMayHaveLineEnds) {
   EXPECT_THAT(Solve("mu,note\n0.1,\"a\n0.5\nb\"\n-1,c\n", {"--skip-column", "note"}).out, HasSubstr("row 1 (line 5)"));
   const CliResult open = Solve("mu,note\n0.1,\"a\n0.2,c\n", {"--skip-column", "note"});
   EXPECT_EQ(open.exit_code, 2);
-  EXPECT_THAT(open.err, HasSubstr("line 2 begins a cell in quotes that has all lines to the end"));
+  EXPECT_THAT(open.err, HasSubstr("line 2 begins a cell in quotes that does not end, which has all lines after it"));
 }
 
 // pandas writes the index of a frame so.
