@@ -174,8 +174,9 @@ absl::Status AuditAll(AuditTable& table, int64_t size, const AuditDataOptions& d
   Progress progress(rows_to_terminal, "rows");
   bool is_first = true;
   while (true) {
-    AuditRows rows = table.Next(rows_of_a_call);
-    if (absl::Status status = table.CheckEnd(); !status.ok()) return status;
+    absl::StatusOr<AuditRows> read = table.Next(rows_of_a_call);
+    if (!read.ok()) return read.status();
+    AuditRows& rows = *read;
     // Without rows there is still one call, which reports the errors of the scene.
     if (rows.lines.empty() && !is_first) break;
     is_first = false;

@@ -1,6 +1,5 @@
 #include "client/cli/solve_data.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <iostream>
 #include <limits>
@@ -96,8 +95,9 @@ absl::Status NameColumns(const absl::Status& error, const std::vector<size_t>& c
 }
 
 absl::Status Solve(CsvReader& reader, const Solver& solver, Solved& solved) {
-  const CsvTable table = reader.Next(std::numeric_limits<size_t>::max());
-  if (absl::Status status = reader.CheckEnd(); !status.ok()) return status;
+  const absl::StatusOr<CsvTable> read = reader.Next(std::numeric_limits<size_t>::max());
+  if (!read.ok()) return read.status();
+  const CsvTable& table = *read;
   const size_t count = table.lines.size();
   solved.outputs.assign(solved.setup.columns.size(), std::vector<double>(count));
   solved.lines = table.lines;
@@ -131,11 +131,12 @@ int64_t BadRows(const Solved& solved) {
 std::string SummaryText(const Solved& solved) {
   const BatchSummary& summary = solved.response.summary;
   const int64_t invalid = summary.counts.by_regime[static_cast<size_t>(Regime::kInvalid)].count;
-  const int64_t endless = std::count_if(solved.regimes.begin(), solved.regimes.end(),
-                                        [](Regime regime) { return regime != Regime::kInvalid && !HasEnd(regime); });
-  int64_t inexact = 0;
-  for (size_t i = 0; i < solved.regimes.size(); ++i) {
-    inexact += solved.statuses[i] == RowStatus::kNotConverged && HasEnd(solved.regimes[i]) ? 1 : 0;
+  int64_t endless = 0, inexact = 0;
+  for (size_t row = 0; row < solved.regimes.size(); ++row) {
+    if (solved.regimes[row] == Regime::kInvalid) continue;
+    const bool has_end = HasEnd(solved.regimes[row]);
+    endless += has_end ? 0 : 1;
+    inexact += has_end && solved.statuses[row] == RowStatus::kNotConverged ? 1 : 0;
   }
   std::string text = absl::StrCat(Counted(summary.counts.points, "row"), ", ", invalid, " without numbers, ",
                                   summary.counts.inadmissible.count, " inadmissible, ", endless,

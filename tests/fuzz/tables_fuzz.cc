@@ -100,9 +100,12 @@ void CheckParts(const std::string& text, const CsvTable& whole, size_t most) {
   if (!reader.ok()) Fail("a table is refused the second time");
   CsvTable joined = {.header = whole.header, .columns = {}, .lines = {}, .bad = {}};
   joined.columns.resize(whole.columns.size());
-  for (CsvTable part = reader->Next(most); !part.lines.empty(); part = reader->Next(most)) {
-    if (part.lines.size() > most) Fail("a part has more rows than were asked for");
-    Append(part, joined);
+  while (true) {
+    const absl::StatusOr<CsvTable> part = reader->Next(most);
+    if (!part.ok()) Fail("a part of a table is refused");
+    if (part->lines.empty()) break;
+    if (part->lines.size() > most) Fail("a part has more rows than were asked for");
+    Append(*part, joined);
   }
   CheckSame(joined, whole, "a table in parts");
 }
@@ -143,7 +146,11 @@ void CheckAuditTable(const std::string& text, size_t most, bool skips) {
   CheckStatus(table.status());
   if (!table.ok()) return;
   int64_t before = 0;
-  for (AuditRows rows = table->Next(most); !rows.lines.empty(); rows = table->Next(most)) {
+  while (true) {
+    const absl::StatusOr<AuditRows> part = table->Next(most);
+    CheckStatus(part.status());
+    if (!part.ok() || part->lines.empty()) break;
+    const AuditRows& rows = *part;
     if (rows.lines.size() > most || rows.bad_cells.size() != rows.lines.size()) Fail("another number of rows");
     CheckLines(rows.lines, before);
     before = rows.lines.back();

@@ -137,9 +137,11 @@ absl::StatusOr<SimulatorAnswers> ReadCsv(const std::string& text, const std::str
                                                    ": must have case,law,velocity_after"));
   }
   std::vector<std::string> cells;
-  while (reader->NextRow(cells)) {
+  while (true) {
+    const absl::StatusOr<bool> has_row = reader->NextRow(cells);
+    if (!has_row.ok()) return has_row.status();
+    if (!*has_row) return all;
     const std::string where = absl::StrCat("line ", reader->line());
-    if (absl::Status status = reader->CheckEnd(); !status.ok()) return status;
     std::vector<double> velocity;
     for (size_t i = 2; i < cells.size(); ++i) {
       const absl::StatusOr<double> number = ParseNumber(cells[i], absl::StrCat(where, ", cell ", i + 1));
@@ -149,7 +151,6 @@ absl::StatusOr<SimulatorAnswers> ReadCsv(const std::string& text, const std::str
     absl::Status status = Add(where, cells[0], cells.size() > 1 ? cells[1] : "", velocity, all);
     if (!status.ok()) return status;
   }
-  return all;
 }
 
 }  // namespace

@@ -106,8 +106,10 @@ bool AuditTable::has_uncertainty() const {
   });
 }
 
-AuditRows AuditTable::Next(size_t most) {
-  CsvTable table = reader_.Next(most);
+absl::StatusOr<AuditRows> AuditTable::Next(size_t most) {
+  absl::StatusOr<CsvTable> read = reader_.Next(most);
+  if (!read.ok()) return read.status();
+  CsvTable& table = *read;
   AuditRows rows{.columns = {}, .lines = std::move(table.lines), .bad_cells = {}};
   rows.columns.rates_after_rad_s.resize(LinkCount(places_));
   for (size_t i = 0; i < places_.size(); ++i) {
@@ -128,12 +130,12 @@ std::string WhyInvalid(const AuditRows& rows, size_t row) {
     const bool is_signed =
         known.values != &AuditColumns::friction && known.values != &AuditColumns::velocity_uncertainty_m_s;
     const double least = is_signed ? std::numeric_limits<double>::lowest() : 0.0;
-    const std::string reason = WhyWrong(known.name, columns.*known.values, row, least);
+    std::string reason = WhyWrong(known.name, columns.*known.values, row, least);
     if (!reason.empty()) return reason;
   }
   for (size_t i = 0; i < columns.rates_after_rad_s.size(); ++i) {
-    const std::string reason = WhyWrong(absl::StrCat(kRates, "[", i, "]"), columns.rates_after_rad_s[i], row,
-                                        std::numeric_limits<double>::lowest());
+    std::string reason = WhyWrong(absl::StrCat(kRates, "[", i, "]"), columns.rates_after_rad_s[i], row,
+                                  std::numeric_limits<double>::lowest());
     if (!reason.empty()) return reason;
   }
   return "the contact cannot have this velocity before the impact, or a number exceeds the largest double";

@@ -37,10 +37,8 @@ class AuditTable {
 
   // True if the table states the uncertainty of each row.
   bool has_uncertainty() const;
-  // Returns the next rows, at most `most`; none at the end.
-  AuditRows Next(size_t most);
-  // Errors: those of CsvReader::CheckEnd.
-  absl::Status CheckEnd() const { return reader_.CheckEnd(); }
+  // Returns the next rows, at most `most`; none at the end. Errors: those of CsvReader::Next.
+  absl::StatusOr<AuditRows> Next(size_t most);
   // The bytes read so far.
   int64_t bytes() const { return reader_.bytes(); }
 

@@ -64,7 +64,6 @@ absl::Status ReadRow(const CsvReader& reader, const std::vector<std::string>& ce
   const auto wrong = [&reader](const std::string& column, const std::string& what) {
     return absl::InvalidArgumentError(absl::StrCat("--data, line ", reader.line(), ": ", column, " ", what));
   };
-  if (absl::Status status = reader.CheckEnd(); !status.ok()) return status;
   if (const std::string rule = reader.WhyNoRow(cells); !rule.empty()) return wrong("the row", rule);
   for (size_t i = 0; i < columns.size(); ++i) {
     if (!columns[i].has_value()) continue;
@@ -99,7 +98,10 @@ absl::StatusOr<std::vector<Column>> ReadTable(const FitDataOptions& options, con
   }
   bool has_rows = false;
   std::vector<std::string> cells;
-  while (reader->NextRow(cells)) {
+  while (true) {
+    const absl::StatusOr<bool> has_row = reader->NextRow(cells);
+    if (!has_row.ok()) return has_row.status();
+    if (!*has_row) break;
     has_rows = true;
     if (absl::Status status = ReadRow(*reader, cells, columns); !status.ok()) return status;
   }

@@ -47,7 +47,7 @@ std::string ReadCell(const std::string& cell, CellKind kind, double& value) {
 
 }  // namespace
 
-bool CsvReader::NextLine() {
+absl::StatusOr<bool> CsvReader::NextLine() {
   std::string more;
   while (ReadLine(line_)) {
     if (lines_read_ == 1 && absl::StartsWith(line_, kByteOrderMark)) line_.erase(0, sizeof(kByteOrderMark) - 1);
@@ -56,10 +56,12 @@ bool CsvReader::NextLine() {
     number_ = lines_read_;
     // A line may end within a cell in quotes.
     const auto is_open = [](const std::string& text) { return std::count(text.begin(), text.end(), '"') % 2 != 0; };
-    for (ends_in_quotes_ = is_open(line_); ends_in_quotes_ && ReadLine(more); ends_in_quotes_ ^= is_open(more)) {
-      absl::StrAppend(&line_, "\n", more);
-    }
-    return true;
+    bool in_quotes = is_open(line_);
+    for (; in_quotes && ReadLine(more); in_quotes ^= is_open(more)) absl::StrAppend(&line_, "\n", more);
+    if (!in_quotes) return true;
+    return absl::InvalidArgumentError(absl::StrCat(
+        name_, ", line ", number_,
+        " begins a cell in quotes that does not end, which has all lines after it: must have a quote at its end"));
   }
   return false;
 }
@@ -76,13 +78,6 @@ std::string CsvReader::WhyNoRow(const std::vector<std::string>& cells) const {
   return absl::StrCat("has ", Counted(cells.size(), "cell"), ": must have ", header_.size(),
                       cells.size() < header_.size() ? "; what is unknown has an empty cell"
                                                     : "; a number has a decimal point, not a comma");
-}
-
-absl::Status CsvReader::CheckEnd() const {
-  if (!ends_in_quotes_) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(
-      name_, ", line ", number_,
-      " begins a cell in quotes that does not end, which has all lines after it: must have a quote at its end"));
 }
 
 void CsvReader::Append(const std::vector<std::string>& cells, CsvTable& table) const {
@@ -107,8 +102,11 @@ absl::Status RefuseUtf16(absl::string_view text, const std::string& name) {
 
 absl::StatusOr<CsvReader> CsvReader::Open(std::istream& stream, const std::string& name) {
   CsvReader reader(stream, name);
-  if (!reader.NextLine()) return absl::InvalidArgumentError(absl::StrCat(name, " has no header"));
+  const absl::StatusOr<bool> has_header = reader.NextLine();
+  // In UTF-16 quotes mean nothing yet.
   if (absl::Status status = RefuseUtf16(reader.line_, name); !status.ok()) return status;
+  if (!has_header.ok()) return has_header.status();
+  if (!*has_header) return absl::InvalidArgumentError(absl::StrCat(name, " has no header"));
   for (const auto& [separator, plural] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
     if (!absl::StrContains(reader.line_, separator)) continue;
     return absl::InvalidArgumentError(
@@ -140,17 +138,20 @@ void CsvReader::Define(size_t column, std::string name, CellKind kind) {
   kinds_[column] = kind;
 }
 
-bool CsvReader::NextRow(std::vector<std::string>& cells) {
-  if (!NextLine()) return false;
-  Split(line_, cells);
-  return true;
+absl::StatusOr<bool> CsvReader::NextRow(std::vector<std::string>& cells) {
+  absl::StatusOr<bool> has_row = NextLine();
+  if (has_row.ok() && *has_row) Split(line_, cells);
+  return has_row;
 }
 
-CsvTable CsvReader::Next(size_t most) {
+absl::StatusOr<CsvTable> CsvReader::Next(size_t most) {
   CsvTable table{.header = header_, .columns = {}, .lines = {}, .bad = {}};
   table.columns.resize(header_.size());
   std::vector<std::string> cells;
-  while (table.lines.size() < most && NextRow(cells)) {
+  while (table.lines.size() < most) {
+    const absl::StatusOr<bool> has_row = NextRow(cells);
+    if (!has_row.ok()) return has_row.status();
+    if (!*has_row) break;
     table.lines.push_back(number_);
     Append(cells, table);
   }

@@ -48,7 +48,7 @@ struct CsvTable {
 class CsvReader {
  public:
   // Reads the header. `name` names the table in errors; the stream must live as long as the reader.
-  // Errors: INVALID_ARGUMENT if there is no header, or if it has semicolons.
+  // Errors: INVALID_ARGUMENT if there is no header, or if it has semicolons; those of Next.
   static absl::StatusOr<CsvReader> Open(std::istream& stream, const std::string& name);
 
   // The names of the columns, as the text or Define has them.
@@ -59,23 +59,22 @@ class CsvReader {
   bool IsSkipped(size_t column) const { return kinds_[column] == CellKind::kSkipped; }
   // Sets the name by which a column is called from now on, and how its cells are read.
   void Define(size_t column, std::string name, CellKind kind);
-  // Returns the next rows, at most `most`; none at the end.
-  CsvTable Next(size_t most);
-  // Reads the cells of the next row as text. Returns false at the end.
-  bool NextRow(std::vector<std::string>& cells);
+  // Returns the next rows, at most `most`; none at the end. Errors: INVALID_ARGUMENT if the text ends within a cell in
+  // quotes, because other rows are lost in it.
+  absl::StatusOr<CsvTable> Next(size_t most);
+  // Reads the cells of the next row as text. Returns false at the end. Errors: those of Next.
+  absl::StatusOr<bool> NextRow(std::vector<std::string>& cells);
   // Returns why the last row, which has these cells, is none of the table; empty if it is one.
   std::string WhyNoRow(const std::vector<std::string>& cells) const;
   // The line of the text in which the last row begins, from 1.
   int64_t line() const { return number_; }
-  // Errors: INVALID_ARGUMENT if the text ended within a cell of the last row, so that other rows are lost in it.
-  absl::Status CheckEnd() const;
   // The bytes read so far.
   int64_t bytes() const { return bytes_; }
 
  private:
   CsvReader(std::istream& stream, std::string name) : stream_(&stream), name_(std::move(name)) {}
-  // Reads up to the next line that is not skipped. Returns false at the end.
-  bool NextLine();
+  // Reads up to the next line that is not skipped. Returns false at the end. Errors: those of Next.
+  absl::StatusOr<bool> NextLine();
   bool ReadLine(std::string& line);
   // Appends a row to the table.
   void Append(const std::vector<std::string>& cells, CsvTable& table) const;
@@ -87,7 +86,6 @@ class CsvReader {
   std::string line_;
   int64_t number_ = 0;  // The number of line_, or of its first part.
   int64_t lines_read_ = 0;
-  bool ends_in_quotes_ = false;
   int64_t bytes_ = 0;
 };
 

@@ -57,14 +57,15 @@ absl::StatusOr<SweepTable> ReadCsv(std::istream& stream, const std::vector<std::
   absl::StatusOr<SweepRows> rows = SweepRows::Create(names, columns);
   if (!rows.ok()) return rows.status();
   std::vector<std::string> cells;
-  for (int64_t points = 1; reader->NextRow(cells); ++points) {
+  for (int64_t points = 1;; ++points) {
+    const absl::StatusOr<bool> has_row = reader->NextRow(cells);
+    if (!has_row.ok()) return has_row.status();
+    if (!*has_row) return std::move(rows->table());
     if (points > SweepTable::kMostPoints) return TooManyPoints();
-    if (absl::Status status = reader->CheckEnd(); !status.ok()) return status;
     if (absl::Status status = AddRow(names, cells, *rows); !status.ok()) {
       return absl::InvalidArgumentError(absl::StrCat("line ", reader->line(), ": ", status.message()));
     }
   }
-  return std::move(rows->table());
 }
 
 absl::StatusOr<SweepTable> Read(std::ifstream& stream, const std::string& path,

@@ -141,6 +141,7 @@ TEST_F(CliSolveData, ACellInQuotesMayHaveLineEnds) {
   const CliResult open = Solve("mu,note\n0.1,\"a\n0.2,c\n", {"--skip-column", "note"});
   EXPECT_EQ(open.exit_code, 2);
   EXPECT_THAT(open.err, HasSubstr("line 2 begins a cell in quotes that does not end, which has all lines after it"));
+  EXPECT_THAT(Solve("\"mu\n0.1\n").err, HasSubstr("line 1 begins a cell in quotes that does not end"));
 }
 
 // pandas writes the index of a frame so.
