@@ -10,7 +10,7 @@
 
 namespace ricochet {
 
-// What must be that of a rigid contact.
+// The directions in which a contact must be rigid.
 enum class RigidIn { kNormal, kBothDirections };
 
 // A spring along the normal alone changes no velocity after the impact, and one along the tangent none of the normal

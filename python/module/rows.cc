@@ -34,18 +34,15 @@ void Put(const std::vector<Code>& codes, int64_t first, Codes& to) {
 // Counts the rows that have no numbers, those that are inadmissible, those whose impact has no end or no solution, and
 // those that did not converge.
 py::tuple Counts(const Codes& regimes, const Codes& statuses) {
-  const auto count = [](const Codes& codes, auto is) {
-    return std::count_if(codes.data(), codes.data() + codes.size(), is);
+  const auto count = [&statuses](RowStatus status) {
+    return std::count(statuses.data(), statuses.data() + statuses.size(), static_cast<uint8_t>(status));
   };
-  const auto has = [](RowStatus status) { return [=](uint8_t code) { return code == static_cast<uint8_t>(status); }; };
-  return py::make_tuple(count(statuses, has(RowStatus::kInvalid)) + count(statuses, has(RowStatus::kNotRepresentable)),
-                        count(statuses, has(RowStatus::kInadmissible)),
-                        count(regimes,
-                              [](uint8_t code) {
-                                const auto regime = static_cast<Regime>(code);
-                                return regime != Regime::kInvalid && !HasEnd(regime);
-                              }),
-                        count(statuses, has(RowStatus::kNotConverged)));
+  const auto without_end = std::count_if(regimes.data(), regimes.data() + regimes.size(), [](uint8_t code) {
+    const auto regime = static_cast<Regime>(code);
+    return regime != Regime::kInvalid && !HasEnd(regime);
+  });
+  return py::make_tuple(count(RowStatus::kInvalid) + count(RowStatus::kNotRepresentable),
+                        count(RowStatus::kInadmissible), without_end, count(RowStatus::kNotConverged));
 }
 
 absl::Span<const double> SpanOf(py::handle column) {

@@ -42,7 +42,8 @@ struct ImpactLawResult {
 // (self-locking).
 ImpactLawResult SolveWhittaker(const PlanarProblem& input, double e);
 
-// Of a range, the solution is the end whose friction does the least work: it opposes the slip.
+// Where a range of impulses solves the law, the solution is the end whose friction does the least work: it opposes the
+// slip.
 ImpactLawResult SolveKaneLevinson(const PlanarProblem& input, double e);
 
 // There is one solution, or none if wnn + mu_hat wtn <= 0.
