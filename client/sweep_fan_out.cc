@@ -1,8 +1,10 @@
 #include "client/sweep_fan_out.h"
 
 #include <algorithm>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "client/call_context.h"
@@ -29,6 +31,14 @@ int64_t PointBytes(const SweepRequest& request) {
   const auto columns = std::max<int64_t>(1, static_cast<int64_t>(request.columns.size()));
   // The regime and the status are a byte each.
   return columns * static_cast<int64_t>(sizeof(double)) + (request.with_regime ? 2 : 0);
+}
+
+// Returns the status with another message and all that it carries.
+absl::Status WithMessage(const absl::Status& from, const std::string& message) {
+  absl::Status status(from.code(), message);
+  from.ForEachPayload(
+      [&status](absl::string_view type, const absl::Cord& payload) { status.SetPayload(type, payload); });
+  return status;
 }
 
 SweepRequest Part(SweepRequest request, const RangeScheduler::Task& task) {
@@ -183,7 +193,7 @@ void SweepFanOut::Fail(const absl::Status& status, const RangeScheduler::Task& t
   std::optional<milliseconds> wait;
   {
     const std::lock_guard lock(mutex_);
-    if (!failure_.has_value() && !MayResume(status)) failure_ = status;
+    if (!failure_.has_value() && !MayResume(status)) failure_ = FromServer(status, server.number());
     wait = server.attempts().AfterFailure(status,
                                           has_begun_ ? servers_.retry.max_resumes : servers_.retry.max_attempts - 1);
     is_lost_[server.number()] = !wait.has_value();
@@ -205,13 +215,19 @@ void SweepFanOut::BackOff(milliseconds time) {
                    [this] { return ended_ || failure_.has_value(); });
 }
 
+absl::Status SweepFanOut::FromServer(const absl::Status& status, size_t number) const {
+  // Every server finds the same faults in a request, so that it does not matter which one tells them.
+  if (absl::IsInvalidArgument(status)) return status;
+  const std::string name = absl::StrCat("server ", number + 1, " of ", servers_.count);
+  std::vector<Violation> violations = ViolationsOf(status);
+  if (violations.empty()) return WithMessage(status, absl::StrCat(name, ": ", status.message()));
+  for (Violation& violation : violations) absl::StrAppend(&violation.description, " (", name, ")");
+  return WithViolations(status, violations);
+}
+
 absl::Status SweepFanOut::NoServerLeft(const absl::Status& last) const {
-  absl::Status status(last.code(),
-                      absl::StrCat("none of the ", servers_.count, " servers goes on with the sweep at point ",
-                                   scheduler_.next_index(), "; the last error: ", last.message()));
-  last.ForEachPayload(
-      [&status](absl::string_view type, const absl::Cord& payload) { status.SetPayload(type, payload); });
-  return status;
+  return WithMessage(last, absl::StrCat("none of the ", servers_.count, " servers goes on with the sweep at point ",
+                                        scheduler_.next_index(), "; the last error: ", last.message()));
 }
 
 std::optional<absl::StatusOr<SweepChunk>> SweepFanOut::Next() {

@@ -78,6 +78,8 @@ class SweepFanOut {
   // Returns the next chunk or the failure, or nothing at this time or at the end.
   std::optional<absl::StatusOr<SweepChunk>> WaitUntil(Clock::time_point until);
   absl::StatusOr<SweepChunk> Join(RangeScheduler::Piece piece);
+  // Says which server has failed.
+  absl::Status FromServer(const absl::Status& status, size_t number) const;
   // Called with the mutex locked.
   absl::Status NoServerLeft(const absl::Status& last) const;
 

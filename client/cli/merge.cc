@@ -79,7 +79,8 @@ class Merger {
 
   absl::Status Write(const ShardFile& shard, v1::SweepResponse& message) {
     // Files of shards have no summaries, and the last call of a sweep ends with one.
-    if (message.first_index() + message.count() == end_index_) *message.mutable_summary() = message.tallies();
+    const bool is_last = message.count() >= 0 && end_index_ - message.count() == message.first_index();
+    if (is_last) *message.mutable_summary() = message.tallies();
     const absl::StatusOr<SweepChunk> chunk = checker_.Accept(message);
     if (!chunk.ok()) return Damaged(shard, chunk.status());
     progress_.Update(chunk->points_done, chunk->points_total);

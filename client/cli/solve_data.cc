@@ -91,7 +91,7 @@ absl::Status NameColumns(const absl::Status& error, const std::vector<size_t>& c
     }
     absl::StrAppend(&violation.description, "; --skip-column leaves a column out");
   }
-  return violations.empty() ? error : InvalidRequest(violations);
+  return violations.empty() ? error : WithViolations(error, violations);
 }
 
 absl::Status Solve(CsvReader& reader, const Solver& solver, Solved& solved) {

@@ -218,8 +218,8 @@ absl::Status ReceiveAll(SweepStream stream, Receiver& receiver) {
 absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRequest& request,
                          const SweepOptions& options, std::stop_token stop) {
   Receiver receiver(request, options, std::move(output));
-  if (absl::Status drawn = receiver.DrawEarlier(solver, request, stop); !drawn.ok()) return drawn;
-  absl::Status status = ReceiveAll(solver.Sweep(receiver.Remaining(request), {.stop = std::move(stop)}), receiver);
+  absl::Status status = receiver.DrawEarlier(solver, request, stop);
+  if (status.ok()) status = ReceiveAll(solver.Sweep(receiver.Remaining(request), {.stop = std::move(stop)}), receiver);
   if (status.ok()) {
     absl::Status drawn = receiver.Picture();
     return drawn.ok() ? receiver.CheckStrictly() : drawn;

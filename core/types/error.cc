@@ -36,7 +36,7 @@ std::vector<Violation> Listed(const std::vector<Violation>& violations) {
   return listed;
 }
 
-absl::Status WithViolations(absl::StatusCode code, ErrorReason reason, const std::vector<Violation>& all) {
+absl::Status Listing(absl::StatusCode code, ErrorReason reason, const std::vector<Violation>& all) {
   assert(!all.empty());
   const std::vector<Violation> violations = Listed(all);
   const std::string message = absl::StrJoin(violations, "; ", [](std::string* out, const Violation& violation) {
@@ -73,11 +73,15 @@ absl::Status MakeError(absl::StatusCode code, ErrorReason reason, const std::str
 }
 
 absl::Status InvalidRequest(const std::vector<Violation>& violations) {
-  return WithViolations(absl::StatusCode::kInvalidArgument, ErrorReason::kInvalidRequest, violations);
+  return Listing(absl::StatusCode::kInvalidArgument, ErrorReason::kInvalidRequest, violations);
 }
 
 absl::Status LimitExceeded(const std::vector<Violation>& violations) {
-  return WithViolations(absl::StatusCode::kResourceExhausted, ErrorReason::kLimitExceeded, violations);
+  return Listing(absl::StatusCode::kResourceExhausted, ErrorReason::kLimitExceeded, violations);
+}
+
+absl::Status WithViolations(const absl::Status& from, const std::vector<Violation>& violations) {
+  return Listing(from.code(), ReasonOf(from), violations);
 }
 
 absl::Status OutputOverflow(const std::string& path) {

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "absl/strings/match.h"
@@ -108,11 +110,21 @@ std::string WhyNotAs(const std::string& path, const std::string& text, google::p
   return IsJson(path, text) ? WhyNoJson(text, message) : WhyNoText(text, message);
 }
 
+// Says that the text is in the other of the two forms than the name of its file tells; empty if it is not.
+std::string OtherForm(const std::string& path, const std::string& text, const google::protobuf::Message& message) {
+  const bool named_json = IsJson(path, text);
+  const std::unique_ptr<google::protobuf::Message> other(message.New());
+  const std::string wrong = named_json ? WhyNoText(text, *other) : WhyNoJson(text, *other);
+  if (!wrong.empty() || other->ByteSizeLong() == 0) return "";
+  return named_json ? "is in textproto, whose files are named .txtpb" : "is in JSON, whose files are named .json";
+}
+
 }  // namespace
 
 std::string WhyNoMessage(const std::string& path, const std::string& text, google::protobuf::Message& message) {
   std::string wrong = WhyNotAs(path, text, message);
   if (wrong.empty()) return "";
+  if (std::string form = OtherForm(path, text, message); !form.empty()) return form;
   v1::Scene one;
   if (message.GetDescriptor() == v1::MultiContactScene::descriptor() && WhyNotAs(path, text, one).empty()) {
     return "has one contact: `ricochet solve --scene` takes it";

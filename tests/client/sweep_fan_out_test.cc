@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "client/channel.h"
 #include "ricochet/client.h"
 #include "ricochet/error.h"
@@ -245,6 +246,18 @@ TEST_F(SweepFanOutTest, RefusesToMixEngines) {
   }
   EXPECT_EQ(end.code(), absl::StatusCode::kFailedPrecondition);
   EXPECT_THAT(std::string(end.message()), HasSubstr("must not be mixed"));
+}
+
+TEST_F(SweepFanOutTest, NamesTheServerWhoseLimitIsTooLow) {
+  const ServerProcess strict({"--max-columns", "1"});
+  const CollectedSweep sweep =
+      Collect(FanOutOver({servers_[0].address(), strict.address()}).Sweep(MixedSweep(1000 * kPoints)));
+  EXPECT_EQ(ReasonOf(sweep.end), ErrorReason::kLimitExceeded);
+  const size_t columns = MixedSweep(kPoints).columns.size();
+  EXPECT_THAT(ViolationsOf(sweep.end),
+              ElementsAre(Violation{"columns", absl::StrCat("has ", columns,
+                                                            " entries: must have at most 1, the limit "
+                                                            "max_columns (server 2 of 2)")}));
 }
 
 TEST(FanOutOptions, AreRefusedByName) {

@@ -246,7 +246,7 @@ absl::Status InTheTable(const FitRequest& request, const absl::Status& status) {
                           : absl::StrCat("--data, ", parts[4].matched ? absl::StrCat("row ", parts[4].str(), ", ") : "",
                                          path, is_sigma ? kSigmaEnding : "");
   }
-  return is_changed ? InvalidRequest(violations) : status;
+  return is_changed ? WithViolations(status, violations) : status;
 }
 
 }  // namespace ricochet::cli

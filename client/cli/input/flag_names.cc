@@ -81,10 +81,10 @@ void NameFlag(const CLI::App& command, Violation& violation) {
 
 absl::Status NameFlags(const CLI::App& app, const absl::Status& error) {
   std::vector<Violation> violations = ViolationsOf(error);
-  if (error.code() != absl::StatusCode::kInvalidArgument || violations.empty()) return error;
+  if (violations.empty()) return error;
   for (const CLI::App* command : app.get_subcommands()) {
     for (Violation& violation : violations) NameFlag(*command, violation);
-    return InvalidRequest(violations);
+    return WithViolations(error, violations);
   }
   return error;
 }

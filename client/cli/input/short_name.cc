@@ -43,6 +43,11 @@ bool EndsIn(const std::string& path, const std::string& name) {
 // name.
 absl::StatusOr<std::string> NearShortName(const std::string& name, const std::vector<std::string>& known,
                                           const std::string& what) {
+  const std::string lower = absl::AsciiStrToLower(name);
+  const absl::StatusOr<std::string> meant = lower == name ? name : FullName(lower, known, what);
+  if (meant.ok() && *meant != lower) {
+    return absl::InvalidArgumentError(absl::StrCat(what, " ", name, ": names nothing; did you mean ", lower, "?"));
+  }
   // A shorter name is near to too many endings to suggest one of them.
   constexpr size_t kLeast = 4;
   if (name.size() < kLeast || absl::StrContains(name, '.') || absl::StrContains(name, '*')) return name;

@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
 #include "core/base/decimal.h"
@@ -80,7 +81,7 @@ std::string PlanCsv(const Plan& plan) {
   std::string text = "effect,decision,size,reason\n";
   for (const PlannedEffect& planned : plan.effects.List()) {
     absl::StrAppend(&text, EffectWord(planned.effect), ",", DecisionText(planned.decision), ",",
-                    ShortestDecimal(planned.size), ",\"", planned.reason, "\"\n");
+                    ShortestDecimal(planned.size), ",", CsvQuoted(planned.reason), "\n");
   }
   return text;
 }

@@ -82,6 +82,9 @@ absl::Status InvalidRequest(const std::vector<Violation>& violations);
 // Makes a RESOURCE_EXHAUSTED that lists the fields that are too large in the same way.
 absl::Status LimitExceeded(const std::vector<Violation>& violations);
 
+// Makes a status like `from`, which lists violations, that lists these in their place. `violations` must not be empty.
+absl::Status WithViolations(const absl::Status& from, const std::vector<Violation>& violations);
+
 // Makes an OUT_OF_RANGE that names the output by its path, such as "outcome.work.normal_compression_j".
 absl::Status OutputOverflow(const std::string& path);
 

@@ -74,6 +74,16 @@ TEST_F(CliScene, AByteOrderMarkBeforeAFileIsSkipped) {
   }
 }
 
+TEST_F(CliScene, AFileWhoseNameTellsTheOtherFormIsRefusedWithItsOwn) {
+  ASSERT_EQ(Run({"scene", "template", "pendulum", "-o", "scene.txtpb"}).exit_code, 0);
+  Write("text.json", Read("scene.txtpb"));
+  EXPECT_THAT(Run({"solve", "--scene", "text.json"}).err,
+              HasSubstr("text.json is in textproto, whose files are named .txtpb"));
+  Write("json.txtpb", Run({"scene", "print", "--scene", "scene.txtpb", "--json"}).out);
+  EXPECT_THAT(Run({"solve", "--scene", "json.txtpb"}).err,
+              HasSubstr("json.txtpb is in JSON, whose files are named .json"));
+}
+
 TEST_F(CliScene, PrintKeepsScenesWithSeveralContacts) {
   for (const SceneTemplate& one : MultiContactTemplates()) {
     const std::string name = one.system;

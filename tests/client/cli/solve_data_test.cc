@@ -108,6 +108,7 @@ TEST_F(CliSolveData, ShortNamesMeanTheFieldsOfTheScene) {
               HasSubstr("must name one of\n  planar_contact.normal_m_s\n  surface_velocity.normal_m_s"));
   EXPECT_THAT(Solve("kinetc_coefficient\n0.1\n").err, HasSubstr("did you mean friction.kinetic_coefficient?"));
   EXPECT_THAT(Solve("friction.kinetc_coefficient\n0.1\n").err, HasSubstr("did you mean friction.kinetic_coefficient?"));
+  EXPECT_THAT(Solve("Mu\n0.1\n").err, HasSubstr("Mu: names nothing; did you mean mu?"));
   EXPECT_THAT(Solve("mu\n0.1\n", {"--column", "nweton"}).err, HasSubstr("did you mean coefficients.newton?"));
 }
 
