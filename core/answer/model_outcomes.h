@@ -62,6 +62,8 @@ namespace spatial {
 absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction, const OutcomeDetail& detail,
                          Outcome& outcome);
 
+Approach ApproachOf(const Problem& problem);
+
 }  // namespace spatial
 
 namespace compliant {

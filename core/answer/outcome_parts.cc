@@ -136,10 +136,23 @@ void SetErrors(const ImpactErrors& errors, Outcome& outcome) {
   set(errors.energy_change, out.energy_change_j);
 }
 
-void AddNeglected(double neglected, double speed, double v0, Outcome& outcome) {
+// Bounds the change of the energy f.(u0 + u1)/2 + tau (v0 + v1)/2 if each velocity changes by `change`.
+static double NeglectedEnergy(double change, double of_tau, double of_f, const Approach& before,
+                              const Outcome& outcome) {
+  const ContactVelocity& after = outcome.contact_velocity_after;
+  double sum = of_tau * std::fabs(before.v0 + after.normal_m_s) + (outcome.impulse.normal_total_n_s + of_tau) * change;
+  for (size_t i = 0; i < after.tangential_m_s.size(); ++i) {
+    sum += of_f * std::fabs(before.u0[i] + after.tangential_m_s[i]) +
+           (std::fabs(outcome.impulse.tangential_n_s[i]) + of_f) * change;
+  }
+  return 0.5 * sum;
+}
+
+void AddNeglected(double neglected, const Approach& approach, Outcome& outcome) {
   if (!(neglected > 0.0)) return;
+  const double change = neglected * std::fabs(approach.v0);
+  outcome.accuracy.relative_error += change / approach.Speed();
   const NumberErrors without = outcome.errors;
-  const double change = neglected * speed;
   NumberErrors& errors = outcome.errors;
   errors = {.rates_after = without.rates_after, .momentum_change = without.momentum_change};
   const auto add = [](const std::optional<double>& error, double more, std::optional<double>& place) {
@@ -147,7 +160,14 @@ void AddNeglected(double neglected, double speed, double v0, Outcome& outcome) {
   };
   add(without.tangential_m_s, change, errors.tangential_m_s);
   add(without.normal_m_s, change, errors.normal_m_s);
-  add(without.newton, change / std::fabs(v0), errors.newton);
+  add(without.newton, neglected, errors.newton);
+  const double of_tau = change / approach.wnn, of_f = change / approach.wtt;
+  add(without.normal_total_n_s, of_tau, errors.normal_total_n_s);
+  add(without.tangential_n_s, of_f, errors.tangential_n_s);
+  const double tau = outcome.impulse.normal_total_n_s, least_tau = tau - of_tau;
+  const double ratio = std::fabs(outcome.coefficients.tangential);
+  if (least_tau > 0.0) add(without.tangential, (of_f + ratio * of_tau) / least_tau, errors.tangential);
+  add(without.energy_change_j, NeglectedEnergy(change, of_tau, of_f, approach, outcome), errors.energy_change_j);
 }
 
 void CompareWithTolerance(double tolerance, Outcome& outcome) {

@@ -4,7 +4,9 @@
 #ifndef RICOCHET_CORE_ANSWER_OUTCOME_PARTS_H_
 #define RICOCHET_CORE_ANSWER_OUTCOME_PARTS_H_
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -49,9 +51,20 @@ WorkLedger MakeLedger(double normal_compression, double normal_restitution, doub
 // Sets the errors that are known.
 void SetErrors(const ImpactErrors& errors, Outcome& outcome);
 
-// Adds to the errors what effects change that the plan leaves out: `neglected`, over max(|u0|, |v0|) = `speed`, in each
-// velocity and so in Newton's coefficient. The errors of all other numbers become unset: no bound is known of them.
-void AddNeglected(double neglected, double speed, double v0, Outcome& outcome);
+// What sizes and errors are relative to.
+struct Approach {
+  std::array<double, 2> u0 = {};  // One component in a plane.
+  double v0 = 0.0;
+  double wtt = 0.0;  // The trace of Wtt.
+  double wnn = 0.0;
+
+  double Speed() const { return std::max({std::fabs(u0[0]), std::fabs(u0[1]), std::fabs(v0)}); }
+};
+
+// Adds to the errors what effects change that the plan leaves out: `neglected`, over |v0|, in each velocity and in each
+// impulse times its mobility, and what follows for the tangential coefficient and the energy. The errors of the phases
+// become unset: no bound is known of them.
+void AddNeglected(double neglected, const Approach& approach, Outcome& outcome);
 
 // Says so if the outcome was followed to its end but its error exceeds `tolerance`, which a tolerance of 0 allows.
 void CompareWithTolerance(double tolerance, Outcome& outcome);

@@ -95,25 +95,17 @@ absl::Status SolveProblem(const Scene& scene, const std::optional<SceneContact>&
                       std::get<SpatialReduction>(contact->reduction), detail, outcome);
 }
 
-// The size of the contact velocity before the impact, and its normal component.
-struct Approach {
-  double speed = 0.0, v0 = 0.0;
-};
-
 Approach ApproachOf(const PlannedScene& planned) {
   struct Approaches {
     Approach operator()(std::monostate) const { return {}; }
     Approach operator()(const pendulum::Problem& problem) const {
-      return {std::fmax(problem.a, std::fabs(problem.b)) * std::fabs(problem.omega_minus),
-              problem.a * problem.omega_minus};
+      const planar::Problem contact = PlanarOf(problem);
+      return {.u0 = {contact.u0}, .v0 = contact.v0, .wtt = contact.w.tt, .wnn = contact.w.nn};
     }
     Approach operator()(const planar::Problem& problem) const {
-      return {std::fmax(std::fabs(problem.v0), std::fabs(problem.u0)), problem.v0};
+      return {.u0 = {problem.u0}, .v0 = problem.v0, .wtt = problem.w.tt, .wnn = problem.w.nn};
     }
-    Approach operator()(const spatial::Problem& problem) const {
-      const auto& [u1, u2] = problem.u0;
-      return {std::fmax(std::fmax(std::fabs(problem.v0), std::fabs(u1)), std::fabs(u2)), problem.v0};
-    }
+    Approach operator()(const spatial::Problem& problem) const { return spatial::ApproachOf(problem); }
   };
   return std::visit(Approaches(), planned.problem);
 }
@@ -159,11 +151,7 @@ absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>&
   absl::Status status = SolveProblem(scene, contact, planned, detail, stopped, outcome);
   if (!status.ok()) return status;
   outcome.effective = planned.effective;
-  outcome.accuracy.relative_error += planned.choice.negligible;
-  if (planned.choice.negligible > 0.0) {
-    const Approach approach = ApproachOf(planned);
-    AddNeglected(planned.choice.negligible, approach.speed, approach.v0, outcome);
-  }
+  if (planned.choice.negligible > 0.0) AddNeglected(planned.choice.negligible, ApproachOf(planned), outcome);
   CompareWithTolerance(planned.demand.relative_tolerance, outcome);
   if (!detail.numbers_only) {
     Explain(planned, outcome.plan);

@@ -14,4 +14,8 @@ absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction
       detail, [&] { return MakeTimeline(impact, reduction); }, NoPath, outcome);
 }
 
+Approach ApproachOf(const Problem& problem) {
+  return {.u0 = problem.u0, .v0 = problem.v0, .wtt = problem.w11 + problem.w22, .wnn = problem.w33};
+}
+
 }  // namespace ricochet::spatial

@@ -158,7 +158,9 @@ class CostStudy::Impl {
     if (row.status == CostStatus::kFailed) return;
     row.velocity_after = ToContactVelocity(answer.velocity, study_.directions);
     row.claimed.numerical = answer.claimed + method.claimed_reduction;
-    row.claimed.modelling = method.claimed_modelling + answer.modelling;
+    const double left_out = method.claimed_modelling;
+    const bool is_known = std::isfinite(left_out);
+    row.claimed.modelling = (is_known ? Relative(left_out * std::fabs(study_.v0)) : left_out) + answer.modelling;
     row.claimed.total = row.claimed.numerical + row.claimed.modelling;
   }
 

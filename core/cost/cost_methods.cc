@@ -49,6 +49,7 @@ class PlanarStudy {
 
   StudiedScene Run() && {
     study_.speed = SpeedOf(problem_.u0, problem_.v0);
+    study_.v0 = problem_.v0;
     if (std::holds_alternative<std::monostate>(scene_.impact_law)) {
       AddCoulomb();
     } else {
@@ -147,6 +148,7 @@ StudiedScene StudySpatial(const Scene& scene, const SpatialReduction& reduction,
       .truth = problem.v0 < 0.0 ? MakeReference([problem](Stopped) { return ExactSpatial(problem); })
                                 : NoImpact({problem.u0[0], problem.u0[1], problem.v0}),
       .speed = SpeedOf(std::sqrt(problem.u0[0] * problem.u0[0] + problem.u0[1] * problem.u0[1]), problem.v0),
+      .v0 = problem.v0,
       .directions = 2};
   if (problem.v0 < 0.0) {
     const sliding::Problem<2> sliding_problem = SlidingProblemOf(problem);

@@ -57,7 +57,7 @@ struct StudiedMethod {
   std::string name;
   CostMethod method;
   Kernel kernel;
-  double claimed_modelling = 0.0;  // Over V; infinite where no bound is known.
+  double claimed_modelling = 0.0;  // Over |v0|; infinite where no bound is known.
   double claimed_reduction = 0.0;  // Error over V by the rounding of W, where the exact answer does not share it.
   // The exact answer of the method's own model; null if there is none.
   std::shared_ptr<Reference> exact;
@@ -70,6 +70,7 @@ struct StudiedScene {
   // The exact answer with all effects of the scene; null under an impact law and at several contacts.
   std::shared_ptr<Reference> truth;
   double speed = 0.0;     // V = max(|u0|, |v0|), m/s
+  double v0 = 0.0;        // m/s
   size_t directions = 1;  // Tangential directions; 0 at several contacts.
 };
 

@@ -15,8 +15,9 @@
 namespace ricochet {
 
 struct Demand {
-  // Tolerated change of each contact velocity after the impact and of each impulse times its mobility, divided by
-  // max(|u0|, |v0|), in [0, 0.1]. With 0, an effect is left out only if it changes nothing.
+  // Tolerated change of each contact velocity after the impact and of each impulse times its mobility, in [0, 0.1]: by
+  // effects left out over |v0|, by errors of the computation over max(|u0|, |v0|). With 0, an effect is left out only
+  // if it changes nothing.
   double relative_tolerance = 1e-12;
   EffectSet required;  // Effects to simulate even if they are negligible.
   EffectSet excluded;  // Effects to leave out whatever that changes; WithImplied adds those that depend on them.

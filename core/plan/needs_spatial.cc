@@ -18,9 +18,8 @@ bool NeedsSpatial(const spatial::Problem& problem, double tolerance) {
   if (!(problem.v0 < 0.0) || is_isotropic || is_steep) return false;
   // In the scales and letters of docs/theory/plan.md, section 4.
   const double speed = -problem.v0;
-  const double scale = speed / std::max({speed, std::fabs(u1), std::fabs(u2)});
   const double most = tolerance * (1.0 + kMargin);
-  const double drive = scale * problem.mu * ((problem.w11 + problem.w22) / problem.w33);  // the least size of friction
+  const double drive = problem.mu * ((problem.w11 + problem.w22) / problem.w33);  // the least size of friction
   if (!(drive > most)) return false;
   const double size = std::sqrt(u1 * u1 + u2 * u2);
   if (size == 0.0) return true;  // Slip that is 0 at the start has no direction to keep.

@@ -111,7 +111,7 @@ HWY_INLINE V ChooseApproaching(const Contact<V>& in, double tolerance) {
   const V braking = drive - along;
   const V least_slope = one - in.mu * coupling;
   // The tolerance in the scale in which |v0| = 1.
-  const V most = Fill<V>(tolerance * (1.0 + kMargin)) * Larger(one, slip);
+  const V most = Fill<V>(tolerance * (1.0 + kMargin));
   // Bounds on a tolerated error times V.
   const V scale = Larger(Absolute(in.u0), speed);
   const V loose = Fill<V>(tolerance * (1.0 + kMargin)) * scale;

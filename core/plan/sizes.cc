@@ -24,7 +24,6 @@ struct Scaled {
   double friction = 0.0;   // m
   bool may_stick = false;  // w <= mu_s W
   bool may_slip = false;   // w > mu_s W; both are true within rounding of equality
-  double scale = 0.0;      // |v0|/V
   Restoring restoring;
 
   double Cone() const { return friction * mobility.coupling; }                          // c
@@ -43,7 +42,7 @@ struct Scaled {
   // A lower bound on tau_s, close to it.
   double EarliestStop() const { return slip / std::max(Braking() + kRounding * UTerms(), 0.0) * (1.0 - TimeError()); }
   double Change(const ReferencePath& reference, const Perturbation& change) const {
-    return WithRoundingMargin(scale * LargestChange(mobility, restoring, reference, change));
+    return WithRoundingMargin(LargestChange(mobility, restoring, reference, change));
   }
 };
 
@@ -59,7 +58,6 @@ Scaled Scale(const planar::Problem& problem) {
   contact.may_stick = contact.mobility.coupling <= held * (1.0 + kRounding);
   contact.may_slip = contact.mobility.coupling >= held * (1.0 - kRounding);
   contact.friction = contact.may_stick ? std::max(problem.mu, contact.Holding()) : problem.mu;
-  contact.scale = speed / std::max(speed, std::fabs(problem.u0));
   contact.restoring = {.law = problem.law, .coefficient = problem.coefficient};
   return contact;
 }
@@ -93,7 +91,7 @@ Size FrictionSize(const Scaled& contact, const ContactPhysics& physics, bool sli
   if (1.0 - cone >= kLeastSlope) {
     const Perturbation held = {.f_jump = HeldImpulse(contact), .slope_low = 1.0 - cone, .slope_high = 1.0 + cone};
     // This lower bound on the second size spares computing it for most contacts, for which it is not the smaller one.
-    const double least = contact.scale * (contact.mobility.tangential * held.f_jump);
+    const double least = contact.mobility.tangential * held.f_jump;
     if (!(least >= size)) size = std::min(size, contact.Change(smooth, held));
   }
   const bool sticks = contact.may_stick && !contact.may_slip && contact.SlideSlope() >= kLeastSlope;
@@ -271,7 +269,7 @@ double ForcesOnSlide(const Scaled& contact, const ContactPhysics& physics, const
   if (!(least > (drift.u + lag * drift.v) * (1.0 + kRounding))) return kUnbounded;
   const double change =
       LargestChange(contact.mobility, contact.restoring, Sliding(contact), {.u = drift.u, .v = drift.v});
-  return change <= 0.25 * end ? WithRoundingMargin(contact.scale * change) : kUnbounded;
+  return change <= 0.25 * end ? WithRoundingMargin(change) : kUnbounded;
 }
 
 double ForcesOnFriction(const Scaled& contact, const planar::Problem& problem, const ContactPhysics& physics,
@@ -390,7 +388,7 @@ Size PendulumFrictionSize(const pendulum::Problem& problem) {
   const double f1 = arm * x * (std::fabs(1.0 - kappa) + kRounding * (1.0 + kappa)) / (1.0 + x);
   // Under Newton's law with kappa = 1, friction changes nothing but the impulses of compression.
   const double tau0 = x / (1.0 + x);
-  const double largest = std::max({v1, arm * v1, tau1, f1, tau0, arm * tau0}) / std::max(1.0, arm);
+  const double largest = std::max({v1, arm * v1, tau1, f1, tau0, arm * tau0});
   return {.value = WithRoundingMargin(largest + std::numeric_limits<double>::min()),
           .basis = Basis::kInequality,
           .number = x};
@@ -400,8 +398,11 @@ Size PendulumHigherOrderSize(const pendulum::Problem& problem) {
   const double x = first_order::FrictionRatio(problem);
   if (x == 0.0) return {};
   if (!first_order::Serves(problem)) return {.value = kUnbounded, .basis = Basis::kNoInequality, .number = x};
-  return {
-      .value = WithRoundingMargin(first_order::ErrorsOf(problem).Largest()), .basis = Basis::kInequality, .number = x};
+  // The errors are over max(|u0|, |v0|).
+  const double arm = std::fabs(problem.b) / problem.a;
+  return {.value = WithRoundingMargin(first_order::ErrorsOf(problem).Largest() * std::max(1.0, arm)),
+          .basis = Basis::kInequality,
+          .number = x};
 }
 
 Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& physics) {

@@ -1,7 +1,7 @@
 // Sizes: for each effect, a bound on the change that leaving it out of an impact makes.
 //
 // The size bounds the change of any contact velocity after the impact and of any impulse times its mobility (Wnn tau,
-// Wtt f; in space (W11 + W22) |f|), divided by V = max(|u0|, |v0|). Effects are left out one after another,
+// Wtt f; in space (W11 + W22) |f|), divided by the approach speed |v0|. Effects are left out one after another,
 //
 //   finite forces, finite duration, tangential compliance, static friction, slip that turns, slip that stops, friction
 //

@@ -22,7 +22,6 @@ struct Scaled {
   double mu = 0.0;
   double mu_static = 0.0;
   double holding = 0.0;  // |Wtt^-1 wtn|; infinite if Wtt is singular
-  double scale = 0.0;
   Restoring restoring;
   double along_normal = 0.0;  // wtn.e0
   double slowing = 0.0;       // -h(phi0)
@@ -34,7 +33,7 @@ struct Scaled {
   double SlideSlope() const { return 1.0 - mu * along_normal; }
   double Friction() const { return holding <= mu_static * (1.0 + kRounding) ? std::max(mu, holding) : mu; }
   double Change(const ReferencePath& reference, const Perturbation& change) const {
-    return WithRoundingMargin(scale * LargestChange(mobility, restoring, reference, change));
+    return WithRoundingMargin(LargestChange(mobility, restoring, reference, change));
   }
 };
 
@@ -82,8 +81,6 @@ Scaled Scale(const spatial::Problem& problem) {
   SetEigenvalues(contact);
   const double slip = std::sqrt(problem.u0[0] * problem.u0[0] + problem.u0[1] * problem.u0[1]);
   contact.slip = slip / speed;
-  const double largest = std::max({speed, std::fabs(problem.u0[0]), std::fabs(problem.u0[1])});
-  contact.scale = speed / largest;
   contact.restoring = {.law = problem.law, .coefficient = problem.coefficient};
   SetDirection(problem.u0, contact);
   return contact;

@@ -51,10 +51,7 @@ void SpatialLanes::SetOutcome(size_t place, Outcome& outcome) const {
   const Added& added = added_[place];
   spatial::MakeOutcome(impacts_[place], added.reduction, {.numbers_only = true}, outcome).IgnoreError();
   outcome.effective = added.effective;
-  outcome.accuracy.relative_error += added.negligible;
-  const spatial::Problem& problem = problems_[place];
-  const double speed = std::max(std::max(std::fabs(problem.u0[0]), std::fabs(problem.u0[1])), std::fabs(problem.v0));
-  AddNeglected(added.negligible, speed, problem.v0, outcome);
+  AddNeglected(added.negligible, spatial::ApproachOf(problems_[place]), outcome);
   outcome.plan.model = Model::kSpatial;
 }
 

@@ -1,8 +1,9 @@
 #include "client/cli/report/plan_report.h"
 
-#include <vector>
+#include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
@@ -51,7 +52,9 @@ std::string WhyText(const Plan& plan) {
 std::string ArithmeticLine(const Plan& plan) {
   const PlannedArithmetic& arithmetic = plan.arithmetic;
   std::string text = absl::StrCat("  ", ArithmeticText(arithmetic.arithmetic), " arithmetic, ");
-  if (arithmetic.rounding_error.has_value()) {
+  if (arithmetic.rounding_error.has_value() && std::isinf(*arithmetic.rounding_error)) {
+    absl::StrAppend(&text, "no bound on rounding, as the impact has no end that is known, ");
+  } else if (arithmetic.rounding_error.has_value()) {
     absl::StrAppend(&text, "rounding error <= ", Rounded(*arithmetic.rounding_error), " (proved), ");
   }
   return absl::StrCat(text, WhyText(plan), "\n");
@@ -75,6 +78,24 @@ std::string PlanText(const Plan& plan) {
     absl::StrAppend(&text, lines[i + 1], "   ", DecisionText(planned.decision), ": ", planned.reason, "\n");
   }
   return text;
+}
+
+std::vector<std::string> LeftOut(const Plan& plan) {
+  std::vector<std::string> names;
+  for (const PlannedEffect& planned : plan.effects.List()) {
+    const bool is_left_out = planned.decision == Decision::kNegligible || planned.decision == Decision::kExcluded;
+    if (is_left_out && planned.size > 0.0) names.push_back(EffectWord(planned.effect));
+  }
+  return names;
+}
+
+std::string LeftOutText(const Plan& plan) {
+  const std::vector<std::string> names = LeftOut(plan);
+  if (names.empty()) return "";
+  const std::string most = std::isinf(plan.neglected)
+                               ? " by an amount that is not known"
+                               : absl::StrCat(" by at most ", Rounded(plan.neglected), " of the approach speed");
+  return absl::StrCat("  left out: ", absl::StrJoin(names, ", "), "; this changes velocities", most, "\n");
 }
 
 std::string PlanCsv(const Plan& plan) {

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "absl/algorithm/container.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/types/span.h"
 #include "client/cli/io/csv_row.h"
+#include "client/cli/report/plan_report.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
 #include "proto/wire/outcome.h"
@@ -41,9 +43,9 @@ const char* LimitText(LimitKind kind) {
 const char* RegimeSentence(Regime regime) {
   switch (regime) {
     case Regime::kFrictionless:
-      return "Frictionless: friction does not couple normal and tangential motion.";
+      return "Frictionless: friction is left out, or does not couple normal and tangential motion.";
     case Regime::kRebound:
-      return "Rebound: slip reverses at the end of compression, and the contact separates.";
+      return "Rebound: slip reverses at the end of compression, and the contact separates unless its coefficient is 0.";
     case Regime::kSliding:
       return "Sliding: slip never stops.";
     case Regime::kStickInCompression:
@@ -108,9 +110,11 @@ std::string CoefficientsText(const Outcome& outcome) {
   const std::string restitution = effective.restitution.has_value()
                                       ? absl::StrCat("restitution ", Rounded(*effective.restitution))
                                       : "the damping of the spring";
-  return absl::StrCat("Coefficients\n", table.Render(2), "  computed with friction ",
-                      Rounded(effective.kinetic_friction), " (static ", Rounded(effective.static_friction), "), ",
-                      restitution, "\n");
+  const bool is_smooth = absl::c_linear_search(LeftOut(outcome.plan), EffectWord(Effect::kFriction));
+  const std::string friction = is_smooth ? "out friction, "
+                                         : absl::StrCat(" friction ", Rounded(effective.kinetic_friction), " (static ",
+                                                        Rounded(effective.static_friction), "), ");
+  return absl::StrCat("Coefficients\n", table.Render(2), "  computed with", friction, restitution, "\n");
 }
 
 // Appends the numbers of a list as cells, one for each tangential direction or angular velocity.
@@ -163,7 +167,7 @@ std::string MotionText(const Outcome& outcome) {
             outcome.contact_velocity_after.tangential_m_s, table);
   AddMotion("contact, normal [m/s]", {before.contact_velocity.normal_m_s}, {outcome.contact_velocity_after.normal_m_s},
             table);
-  return absl::StrCat("Motion\n", table.Render(2), AccuracyText(outcome));
+  return absl::StrCat("Motion\n", table.Render(2), AccuracyText(outcome), LeftOutText(outcome.plan));
 }
 
 std::string BodiesText(absl::Span<const BodyVelocity> bodies) {

@@ -47,8 +47,8 @@ struct PlannedEffect {
   Effect effect = Effect::kUnspecified;
   Decision decision = Decision::kUnspecified;
   // Bound on the change that leaving the effect out makes in any contact velocity, or in an impulse times its mobility
-  // (Wnn tau, Wtt f; in space (W11 + W22) |f|), divided by max(|u0|, |v0|). 0 if the effect is absent, or if it is an
-  // effect of friction and friction itself is left out; infinite if no bound is known.
+  // (Wnn tau, Wtt f; in space (W11 + W22) |f|), divided by the approach speed |v0|. 0 if the effect is absent, or if it
+  // is an effect of friction and friction itself is left out; infinite if no bound is known.
   double size = 0.0;
   std::string reason;  // One sentence that says where the size comes from, with its numbers.
   friend bool operator==(const PlannedEffect&, const PlannedEffect&) = default;

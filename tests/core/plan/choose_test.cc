@@ -92,7 +92,7 @@ TEST(ChooseTest, AnswersOfPendulumsAreWithinWhatTheCallerExcludes) {
       usage.Add(choice.model);
       if (choice.model == Model::kUnspecified && excluded.Has(Effect::kHigherOrder)) continue;
       EXPECT_LE(ChangeBetween(planar, full.end, PlannedAnswer(choice, problem).end),
-                choice.neglected + NoiseOf(planar, full))
+                OverSpeed({.value = choice.neglected}, planar).value + NoiseOf(planar, full))
           << i << " by model " << static_cast<int>(choice.model);
     }
   }

@@ -56,12 +56,13 @@ TEST(ForcesSizeTest, OfFiniteForces) {
     const Sizes sizes = PlanarSizes(scene.problem, scene.physics);
     const double noise = std::max(with.error_estimate, kTolerance);
     const double tolerance = scenes.Power(-6.0, -1.0);
-    kept.Add(sizes[Effect::kFiniteForces],
+    kept.Add(OverSpeed(sizes[Effect::kFiniteForces], scene.problem),
              ChangeBetween(scene.problem, EndingOf(with), EndingOf(planar::Solve(scene.problem))), noise, tolerance);
     Size both = sizes[Effect::kFriction];
     both.value += sizes.forces_beyond_friction;
-    smooth.Add(both, ChangeBetween(scene.problem, EndingOf(with), EndingOf(planar::Solve(Smooth(scene.problem)))),
-               noise, tolerance);
+    smooth.Add(OverSpeed(both, scene.problem),
+               ChangeBetween(scene.problem, EndingOf(with), EndingOf(planar::Solve(Smooth(scene.problem)))), noise,
+               tolerance);
   }
   kept.Finish(30);
   smooth.Finish(15);

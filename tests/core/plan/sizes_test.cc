@@ -36,7 +36,8 @@ TEST(SizesTest, FrictionOfAPlanarContact) {
     const auto with = EndingOf(planar::Solve(problem));
     const auto without = EndingOf(planar::Solve(Smooth(problem)));
     const Size size = PlanarSizes(problem, {})[Effect::kFriction];
-    tally.Add(size, ChangeBetween(problem, with, without), NoiseOf(problem, with), scenes.Tolerance());
+    tally.Add(OverSpeed(size, problem), ChangeBetween(problem, with, without), NoiseOf(problem, with),
+              scenes.Tolerance());
   }
   tally.Finish(1000);
   tally.ExpectSharpInPlay();
@@ -54,7 +55,7 @@ TEST(SizesTest, SlipThatStopsInAPlane) {
     const auto with = EndingOf(planar::Solve(problem));
     const auto without = EndingOf(sliding::Solve(SlidingProblemOf(problem)));
     const double noise = NoiseOf(problem, with) + sliding::ErrorsOf(SlidingProblemOf(problem)).Largest();
-    tally.Add(size, ChangeBetween(problem, with, without), noise, scenes.Tolerance());
+    tally.Add(OverSpeed(size, problem), ChangeBetween(problem, with, without), noise, scenes.Tolerance());
   }
   tally.Finish(1000);
   tally.ExpectSharpInPlay();
@@ -71,7 +72,8 @@ TEST(SizesTest, StaticFrictionInAPlane) {
     const auto with = EndingOf(planar::Solve(problem));
     const auto without = EndingOf(planar::Solve(WithoutStatic(problem)));
     const Size size = PlanarSizes(problem, {})[Effect::kStaticFriction];
-    tally.Add(size, ChangeBetween(problem, with, without), NoiseOf(problem, with), scenes.Tolerance());
+    tally.Add(OverSpeed(size, problem), ChangeBetween(problem, with, without), NoiseOf(problem, with),
+              scenes.Tolerance());
   }
   tally.Finish(1000);
 }
@@ -85,7 +87,7 @@ TEST(SizesTest, FrictionOfAPendulum) {
     const auto with = EndingOf(pendulum::Solve(problem));
     const auto without = EndingOf(pendulum::Solve(Smooth(problem)));
     const Size size = PendulumSizes(problem, {})[Effect::kFriction];
-    tally.Add(size, ChangeBetween(planar, with, without), NoiseOf(planar, with), scenes.Tolerance());
+    tally.Add(OverSpeed(size, planar), ChangeBetween(planar, with, without), NoiseOf(planar, with), scenes.Tolerance());
   }
   tally.Finish(1000);
   tally.ExpectSharpInPlay();
@@ -101,7 +103,7 @@ TEST(SizesTest, HigherOrderOfAPendulum) {
     const planar::Problem planar = PlanarOf(problem);
     const auto with = EndingOf(pendulum::Solve(problem));
     const auto without = EndingOf(first_order::Solve(problem));
-    tally.Add(size, ChangeBetween(planar, with, without), NoiseOf(planar, with), scenes.Tolerance());
+    tally.Add(OverSpeed(size, planar), ChangeBetween(planar, with, without), NoiseOf(planar, with), scenes.Tolerance());
   }
   tally.Finish(1000);
   tally.ExpectSharpInPlay();
@@ -115,7 +117,8 @@ TEST(SizesTest, FrictionInSpace) {
     const spatial::Impact with = spatial::Solve(problem);
     const auto without = EndingOf(spatial::Solve(Smooth(problem)));
     const Size size = SpatialSizes(problem)[Effect::kFriction];
-    tally.Add(size, ChangeBetween(problem, EndingOf(with), without), with.error_estimate, scenes.Tolerance());
+    tally.Add(OverSpeed(size, problem), ChangeBetween(problem, EndingOf(with), without), with.error_estimate,
+              scenes.Tolerance());
   }
   tally.Finish(1000);
   tally.ExpectSharpInPlay();
@@ -134,7 +137,8 @@ TEST(SizesTest, SlipThatTurnsOrStopsInSpace) {
     Size size = sizes[Effect::kSlipTurn];
     size.value += sizes[Effect::kSlipStop].value;
     const double noise = with.error_estimate + sliding::ErrorsOf(line).Largest();
-    tally.Add(size, ChangeBetween(problem, EndingOf(with), EndingOf(sliding::Solve(line))), noise, scenes.Tolerance());
+    tally.Add(OverSpeed(size, problem), ChangeBetween(problem, EndingOf(with), EndingOf(sliding::Solve(line))), noise,
+              scenes.Tolerance());
   }
   tally.Finish(1000);
   tally.ExpectSharpInPlay();
@@ -150,7 +154,7 @@ TEST(SizesTest, StaticFrictionInSpace) {
     const spatial::Impact with = spatial::Solve(problem);
     const spatial::Impact without = spatial::Solve(WithoutStatic(problem));
     const Size size = SpatialSizes(problem)[Effect::kStaticFriction];
-    tally.Add(size, ChangeBetween(problem, EndingOf(with), EndingOf(without)),
+    tally.Add(OverSpeed(size, problem), ChangeBetween(problem, EndingOf(with), EndingOf(without)),
               with.error_estimate + without.error_estimate, scenes.Tolerance());
   }
   tally.Finish(1000);

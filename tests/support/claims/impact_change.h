@@ -14,6 +14,7 @@
 #include "core/models/planar/planar.h"
 #include "core/models/sliding/sliding.h"
 #include "core/models/spatial/spatial.h"
+#include "core/plan/sizes.h"
 
 namespace ricochet {
 
@@ -60,6 +61,13 @@ Ending<kTangential> EndingOf(const sliding::Impact<kTangential>& impact) {
 inline double SpeedOf(const planar::Problem& problem) { return std::max(std::fabs(problem.u0), -problem.v0); }
 inline double SpeedOf(const spatial::Problem& problem) {
   return std::max({std::fabs(problem.u0[0]), std::fabs(problem.u0[1]), -problem.v0});
+}
+
+// The size over max(|u0|, |v0|), to which the changes between endings are relative.
+template <typename Problem>
+Size OverSpeed(Size size, const Problem& problem) {
+  size.value *= -problem.v0 / SpeedOf(problem);
+  return size;
 }
 
 inline double ChangeBetween(const planar::Problem& problem, const Ending<1>& a, const Ending<1>& b) {
