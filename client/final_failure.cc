@@ -64,8 +64,7 @@ absl::Status ExplainFailure(const absl::Status& status) {
   }
   if (absl::IsDeadlineExceeded(status) && message == "Deadline Exceeded") {
     return {status.code(),
-            "no answer came before the deadline (ClientOptions::deadline, 10 s unless it is set, or that of the call; "
-            "--deadline)"};
+            "no answer came before the deadline, which is that of the call (--deadline) or ClientOptions::deadline"};
   }
   return status;
 }

@@ -156,7 +156,7 @@ class CostStudy::Impl {
     AddNote(answer.note, row);
     AddNote(answer.failure.empty() && !finite ? kOverflowNote : answer.failure, row);
     if (row.status == CostStatus::kFailed) return;
-    row.velocity_after = ToContactVelocity(answer.velocity, study_.directions);
+    if (study_.directions > 0) row.velocity_after = ToContactVelocity(answer.velocity, study_.directions);
     row.claimed.numerical = answer.claimed + method.claimed_reduction;
     const double left_out = method.claimed_modelling;
     const bool is_known = std::isfinite(left_out);

@@ -117,7 +117,9 @@ ReferenceVelocity ExactRigid(const planar::Problem& problem, Stopped stopped) {
       problem.w.Rank() == 1 ? std::nullopt : CertifyContact(SceneOf(problem), kReferenceDigits, stopped);
   if (certificate.has_value()) return ReferenceVelocityOf(*certificate);
   const planar::Impact impact = planar::Solve(problem);
-  return ReferenceAt({impact.u1, 0.0, impact.v1}, kUlp, kCompensatedSource);
+  // A wedged contact has no end, and so no answer.
+  const double error = impact.regime == Regime::kWedged ? std::numeric_limits<double>::infinity() : kUlp;
+  return ReferenceAt({impact.u1, 0.0, impact.v1}, error, kCompensatedSource);
 }
 
 template <size_t kTangential>

@@ -272,9 +272,10 @@ absl::Status CheckLimits(const CostRequest& request, const Limits& limits) {
 
 absl::Status CheckPoints(int64_t points, const Limits& limits) {
   if (points <= limits.max_points_per_sweep) return absl::OkStatus();
-  return MakeError(absl::StatusCode::kResourceExhausted, ErrorReason::kSweepTooLarge,
-                   absl::StrCat("the sweep has ", points, " points: one call may have at most ",
-                                limits.max_points_per_sweep, "; ask for sub-ranges by first_index and end_index"));
+  return MakeError(
+      absl::StatusCode::kResourceExhausted, ErrorReason::kSweepTooLarge,
+      absl::StrCat("the sweep has ", points, " points: one call may have at most ", limits.max_points_per_sweep,
+                   "; ask for sub-ranges by first_index and end_index (--range)"));
 }
 
 }  // namespace ricochet

@@ -304,9 +304,11 @@ std::string FingerprintOf(absl::Span<const Probe> probes) {
   return absl::StrCat(absl::Hex(hash.value(), absl::kZeroPad16));
 }
 
+const char* ThisVersion() { return RICOCHET_VERSION; }
+
 const EngineInfo& ThisEngine() {
   const DefaultFloatingPoint mode;
-  static const EngineInfo engine = {.version = RICOCHET_VERSION, .fingerprint = FingerprintOf(ProbeEngine())};
+  static const EngineInfo engine = {.version = ThisVersion(), .fingerprint = FingerprintOf(ProbeEngine())};
   return engine;
 }
 

@@ -49,8 +49,7 @@ std::string OptionName(const std::string& field) {
 
 ClientOptions OptionsOf(const py::dict& given) {
   const auto text = [&given](const char* name) { return given[name].cast<std::string>(); };
-  ClientOptions options = {.target = text("server"),
-                           .user_agent = absl::StrCat("ricochet-python/", ThisEngine().version)};
+  ClientOptions options = {.target = text("server"), .user_agent = absl::StrCat("ricochet-python/", ThisVersion())};
   options.max_receive_bytes = given["max_receive"].cast<int64_t>();
   options.sweep_deadline = Milliseconds(given["deadline"].cast<std::optional<double>>());
   if (options.sweep_deadline.has_value()) options.deadline = *options.sweep_deadline;

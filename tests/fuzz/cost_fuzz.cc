@@ -42,10 +42,13 @@ void CheckTime(const CostTime& time) {
 
 void CheckMeasured(const CostRow& row) {
   if (!row.solve.has_value()) Fail(row.name + " is measured and has no time");
-  for (const double velocity : row.velocity_after.tangential_m_s) {
-    if (!std::isfinite(velocity)) Fail(row.name + " is measured and has no velocity");
+  const bool is_one_contact = row.method.multi_contact == MultiContactMethod::kUnspecified;
+  if (row.velocity_after.has_value() != is_one_contact) Fail(row.name + " has no velocity, or one of several contacts");
+  if (is_one_contact) {
+    bool is_finite = std::isfinite(row.velocity_after->normal_m_s);
+    for (const double velocity : row.velocity_after->tangential_m_s) is_finite &= std::isfinite(velocity);
+    if (!is_finite) Fail(row.name + " is measured and its velocity is not finite");
   }
-  if (!std::isfinite(row.velocity_after.normal_m_s)) Fail(row.name + " is measured and has no velocity");
   if (!(row.claimed.total >= 0.0 && row.claimed.numerical >= 0.0 && row.claimed.modelling >= 0.0)) {
     Fail(row.name + " claims no error");
   }

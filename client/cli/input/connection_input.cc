@@ -171,7 +171,7 @@ absl::StatusOr<ClientOptions> ClientOptionsOf(const ConnectionInput& input) {
   if (!input.tls.empty() && input.tls != "true" && input.tls != "false") {
     return InputError("--tls", input.tls, "be true or false");
   }
-  ClientOptions client{.target = input.server, .user_agent = absl::StrCat("ricochet-cli/", ThisEngine().version)};
+  ClientOptions client{.target = input.server, .user_agent = absl::StrCat("ricochet-cli/", ThisVersion())};
   client.security = {
       .tls = input.tls == "true" || !input.tls_ca.empty() || !input.tls_cert.empty() || !input.server_name.empty(),
       .tls_ca = input.tls_ca,

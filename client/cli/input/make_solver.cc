@@ -4,6 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/text/number_input.h"
 #include "ricochet/client.h"
+#include "ricochet/engine_info.h"
 
 namespace ricochet::cli {
 
@@ -20,7 +21,11 @@ absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options,
   if (!connection.ok()) return connection.status();
   const std::string& server = connection->server;
   if (fan_out && server.empty()) return absl::InvalidArgumentError("--fan-out needs --server A,B,...");
-  if (server.empty()) return std::make_unique<LocalSolver>(limits, threads.value_or(AvailableCores()));
+  if (server.empty()) {
+    // The fingerprint is made here, so that no time that a command reports holds it.
+    static_cast<void>(ThisEngine());
+    return std::make_unique<LocalSolver>(limits, threads.value_or(AvailableCores()));
+  }
   if (fan_out && !absl::StrContains(server, ',')) {
     return InputError("--server", server, "name at least two servers, separated by commas, for --fan-out");
   }

@@ -37,9 +37,6 @@ constexpr const char* kHeads[] = {"method",     "one solve",       "spread",    
                                   "error made", "numerical error", "modelling error", "steps"};
 
 std::string CellsText(const CostRow& row) {
-  const auto error = [&row](double CostError::*part) {
-    return row.achieved.has_value() ? ErrorText((*row.achieved).*part) : "";
-  };
   const std::vector<std::string> cells = {
       row.name,
       row.solve.has_value()                  ? TimeText(row.solve->median_s)
@@ -48,9 +45,9 @@ std::string CellsText(const CostRow& row) {
       row.solve.has_value() ? absl::StrCat(row.solve->samples == 1 ? "" : "± ", SpreadText(*row.solve)) : "",
       row.batch.has_value() ? TimeText(row.batch->median_s) : "",
       row.status == CostStatus::kMeasured ? ErrorText(row.claimed.total) : "",
-      error(&CostError::total),
-      error(&CostError::numerical),
-      error(&CostError::modelling),
+      MadeText(row, &CostError::total),
+      MadeText(row, &CostError::numerical),
+      MadeText(row, &CostError::modelling),
       row.steps > 0 ? absl::StrCat(row.steps) : ""};
   std::string text;
   for (size_t i = 0; i < cells.size(); ++i) {
@@ -104,7 +101,7 @@ std::string Facts(const CostChunk& study) {
       if (!row.solve.has_value() || !row.achieved.has_value()) return;
       absl::StrAppend(&text,
                       Fact(what, row.name,
-                           absl::StrCat(TimeText(row.solve->median_s), ", error ", ErrorText(row.achieved->total))));
+                           absl::StrCat(TimeText(row.solve->median_s), ", error ", MadeText(row, &CostError::total))));
     };
     fact("fastest", fast);
     fact("most exact", exact);
@@ -137,7 +134,10 @@ std::string RunTable(const CostChunk& study, const std::string& date) {
       {"date", date},
       {"time taken", absl::StrFormat("%.2g s", summary.elapsed_s)},
       {"exact answer",
-       absl::StrCat(summary.reference_source, ". It is known to within ", ErrorText(summary.reference_error), ".")}};
+       absl::StrCat(summary.reference_source, ".",
+                    summary.reference_error.has_value()
+                        ? absl::StrCat(" It is known to within ", ErrorText(*summary.reference_error), ".")
+                        : "")}};
   std::string text = "<table class=\"words\">\n<tbody>\n";
   for (const auto& [name, value] : rows) {
     absl::StrAppend(&text, "<tr>", HtmlElement("td", name), HtmlElement("td", value), "</tr>\n");

@@ -28,9 +28,7 @@ std::string Wrapped(const std::string& text, size_t indent = 0) {
 }
 
 std::vector<std::string> Cells(const CostRow& row, bool on_front) {
-  const auto error = [&row](double CostError::*part) {
-    return row.achieved.has_value() ? ErrorText((*row.achieved).*part) : "-";
-  };
+  const auto error = [&row](double CostError::*part) { return row.achieved.has_value() ? MadeText(row, part) : "-"; };
   return {absl::StrCat(on_front ? "* " : "  ", row.name),
           row.solve.has_value() ? TimeText(row.solve->median_s) : "-",
           row.solve.has_value() ? SpreadText(*row.solve) : "-",
@@ -105,8 +103,10 @@ CsvRow CsvRowOf(const CostChunk& study, size_t index, bool on_front) {
   csv.Integer("index", index);
   csv.Quoted("name", row.name);
   csv.Words("status", EnumName(row.status));
-  csv.Words("method.model", EnumName(row.method.model));
-  csv.Words("method.arithmetic", absl::AsciiStrToUpper(ArithmeticText(row.method.arithmetic)));
+  // The methods for several contacts are none of the models for one.
+  const bool has_model = row.method.model != Model::kUnspecified;
+  csv.Words("method.model", has_model ? EnumName(row.method.model) : "");
+  csv.Words("method.arithmetic", has_model ? absl::AsciiStrToUpper(ArithmeticText(row.method.arithmetic)) : "");
   csv.Number("method.tolerance", row.method.tolerance);
   csv.Integer("method.digits", row.method.digits);
   csv.Number("method.stiffness", row.method.stiffness);
@@ -154,14 +154,29 @@ std::string ErrorText(double error) {
   return error == 0.0 ? "0" : absl::StrFormat("%.1e", error);
 }
 
+std::string MadeText(const CostRow& row, double CostError::*part) {
+  if (!row.achieved.has_value()) return "";
+  const CostError& made = *row.achieved;
+  const double error = made.*part;
+  // The numerical error has a reference of its own, whose error is known only if it is the one of the total error. A
+  // method that is its own reference has none at all.
+  const bool is_bounded =
+      part == &CostError::total || (part == &CostError::numerical && (made.modelling == 0.0 || error == 0.0));
+  return is_bounded && error < row.reference_error ? absl::StrCat("<=", ErrorText(row.reference_error))
+                                                   : ErrorText(error);
+}
+
 std::string PickRangeText(const CostPick& pick) {
   if (pick.least_tolerance == pick.most_tolerance) return Rounded(pick.least_tolerance);
   return absl::StrCat(Rounded(pick.least_tolerance), " to ", Rounded(pick.most_tolerance));
 }
 
 std::string PickName(const CostChunk& study, const CostPick& pick) {
+  if (pick.model == Model::kNone) return "no model, as the contact separates";
   if (pick.row < 0 || pick.row >= static_cast<int64_t>(study.rows.size())) return ModelText(pick.model);
-  return study.rows[static_cast<size_t>(pick.row)].name;
+  const CostRow& row = study.rows[static_cast<size_t>(pick.row)];
+  if (row.status != CostStatus::kMeasured) return row.name;
+  return absl::StrCat(row.name, ", which claims ", ErrorText(row.claimed.total));
 }
 
 int64_t AnswerCount(const CostChunk& study) {

@@ -31,10 +31,14 @@ std::string SpreadText(const CostTime& time);
 // Returns two digits: "1.2e-16", "0", "unknown" for infinity.
 std::string ErrorText(double error);
 
+// Returns a part of the error made, or the bound that the error of the reference leaves: "<=3.9e-13". It is empty if the
+// error is not known.
+std::string MadeText(const CostRow& row, double CostError::*part);
+
 // Returns the tolerances of a pick: "1e-12 to 0.001".
 std::string PickRangeText(const CostPick& pick);
 
-// Returns the name of the method that the plan picks.
+// Returns the name of the method that the plan picks, with the error that it claims.
 std::string PickName(const CostChunk& study, const CostPick& pick);
 
 // Returns how many answers err by more than they claim, how many methods gave none, and how many had no time left.

@@ -108,13 +108,13 @@ struct CostRow {
   // One impact among kCostBatch whose velocity before varies by 0.1 %: a pendulum's closed form computes them in SIMD
   // lanes, every other method one after another. Absent if they would take more than 2 % of the time limit.
   std::optional<CostTime> batch;
-  bool batch_in_lanes = false;        // True if the batch was computed in SIMD lanes.
-  CostError claimed;                  // Bounds or estimates; infinite where no bound is known.
-  std::optional<CostError> achieved;  // Absent if there is no answer, or nothing to compare it with.
-  double reference_error = 0.0;       // Errors achieved are known to within this number.
-  ContactVelocity velocity_after;     // Answer of the method; empty without one, and at several contacts.
-  int64_t steps = 0;                  // 0 for a closed form.
-  int64_t right_hand_sides = 0;       // 0 for a closed form.
+  bool batch_in_lanes = false;                    // True if the batch was computed in SIMD lanes.
+  CostError claimed;                              // Bounds or estimates; infinite where no bound is known.
+  std::optional<CostError> achieved;              // Absent if there is no answer, or nothing to compare it with.
+  double reference_error = 0.0;                   // Errors achieved are known to within this number.
+  std::optional<ContactVelocity> velocity_after;  // The method's answer; absent without one, and at several contacts.
+  int64_t steps = 0;                              // 0 for a closed form.
+  int64_t right_hand_sides = 0;                   // 0 for a closed form.
   friend bool operator==(const CostRow&, const CostRow&) = default;
 
   // The error achieved is larger than the one claimed, by more than the reference leaves open.
@@ -147,9 +147,10 @@ struct CostMachine {
 // The parts of a study that need all rows.
 struct CostSummary {
   // The exact answer for the scene with all its effects, rounded, and one sentence that says where it comes from.
-  ContactVelocity reference;
+  // Absent if none is known.
+  std::optional<ContactVelocity> reference;
   std::string reference_source;
-  double reference_error = 0.0;  // Over V.
+  std::optional<double> reference_error;  // Over V.
   // Indices of the rows on the Pareto front, from fast to exact: no other method is as fast and as exact, by median
   // time of one solve and total error achieved.
   std::vector<int64_t> front;

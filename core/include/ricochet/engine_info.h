@@ -13,8 +13,11 @@ struct EngineInfo {
   friend bool operator==(const EngineInfo&, const EngineInfo&) = default;
 };
 
-// The first call computes the fingerprint, by solving some hundred impacts in some milliseconds. Thread safety: any
-// number of threads may call it.
+// The version of this library, which takes no time to know.
+const char* ThisVersion();
+
+// The first call computes the fingerprint: it solves some hundred impacts and makes two fits, which takes some tens of
+// milliseconds. Thread safety: any number of threads may call it.
 const EngineInfo& ThisEngine();
 
 }  // namespace ricochet

@@ -20,7 +20,7 @@ inline CostRow MeasuredRow(std::string name, CostMethod method, double time_s, C
           .batch = CostTime{0.5 * time_s, 0.49 * time_s, 0.52 * time_s, 21, 1000},
           .claimed = claimed,
           .achieved = achieved,
-          .velocity_after = {{0.7}, 0.2}};
+          .velocity_after = ContactVelocity{{0.7}, 0.2}};
 }
 
 // Rows 0 to 2 are on the front. Row 3 errs by more than it claims, row 4 misses its tolerance, row 5 failed, and row 6
@@ -52,7 +52,7 @@ inline CostChunk MadeCost() {
   study.rows[4].steps = 12;
   study.rows[4].right_hand_sides = 80;
   study.summary =
-      CostSummary{.reference = {{0.7}, 0.2},
+      CostSummary{.reference = ContactVelocity{{0.7}, 0.2},
                   .reference_source = "certified to 64 digits",
                   .reference_error = 1e-64,
                   .front = {0, 1, 2},

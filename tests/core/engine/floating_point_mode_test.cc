@@ -56,7 +56,7 @@ struct Answers {
   FitResponse fit;
   std::vector<double> batch, sweep;
   std::vector<MultiContactAnswer> several;
-  std::vector<ContactVelocity> studied;
+  std::vector<std::optional<ContactVelocity>> studied;
   friend bool operator==(const Answers&, const Answers&) = default;
 };
 
