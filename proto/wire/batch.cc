@@ -1,7 +1,6 @@
 #include "proto/wire/batch.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <string>
 
@@ -18,8 +17,6 @@
 namespace ricochet {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "columns are little-endian");
-
 // A string of fewer bytes may lie within its object, which need not be aligned for doubles.
 constexpr size_t kLeastBytes = 64;
 
@@ -31,10 +28,6 @@ bool LiesAsDoubles(const std::string& bytes) {
 absl::Span<const double> Doubles(const std::string& bytes) {
   return {reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double)};
 }
-
-// Returns the regime or status of a byte; a number that this build does not know becomes kUnspecified.
-Regime RegimeOf(char byte) { return FromProto<Regime>(static_cast<v1::Regime>(static_cast<uint8_t>(byte))); }
-RowStatus StatusOf(char byte) { return FromProto<RowStatus>(static_cast<v1::RowStatus>(static_cast<uint8_t>(byte))); }
 
 absl::Status Misfit(const std::string& what, size_t found, size_t wanted) {
   return absl::DataLossError(absl::StrCat("the answer to a batch has ", found, " ", what, " in place of ", wanted));
@@ -90,10 +83,11 @@ absl::Status CopyOutputs(const v1::SolveBatchResponse& response, size_t first, s
   }
   const auto at = static_cast<ptrdiff_t>(first);
   if (!rows.regimes.empty()) {
-    std::transform(response.regimes().begin(), response.regimes().end(), rows.regimes.begin() + at, RegimeOf);
+    std::transform(response.regimes().begin(), response.regimes().end(), rows.regimes.begin() + at, CodeOf<Regime>);
   }
   if (!rows.statuses.empty()) {
-    std::transform(response.statuses().begin(), response.statuses().end(), rows.statuses.begin() + at, StatusOf);
+    std::transform(response.statuses().begin(), response.statuses().end(), rows.statuses.begin() + at,
+                   CodeOf<RowStatus>);
   }
   return absl::OkStatus();
 }
@@ -135,14 +129,8 @@ void BatchExchange::OpenOutputs(size_t columns, v1::SolveBatchResponse& response
 
 void BatchExchange::Close(const BatchSummary& summary, const EngineInfo& engine, v1::SolveBatchResponse& response) {
   for (std::string& bytes : *response.mutable_outputs()) bytes.resize(row_count() * sizeof(double));
-  std::string& regimes = *response.mutable_regimes();
-  regimes.resize(row_count());
-  std::transform(regimes_.begin(), regimes_.end(), regimes.begin(),
-                 [](Regime regime) { return static_cast<char>(regime); });
-  std::string& statuses = *response.mutable_statuses();
-  statuses.resize(row_count());
-  std::transform(statuses_.begin(), statuses_.end(), statuses.begin(),
-                 [](RowStatus status) { return static_cast<char>(status); });
+  SetCodes(regimes_, *response.mutable_regimes());
+  SetCodes(statuses_, *response.mutable_statuses());
   *response.mutable_summary() = ToProto(summary);
   ToProto(engine, *response.mutable_engine());
 }

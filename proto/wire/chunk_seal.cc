@@ -7,6 +7,7 @@
 #include "proto/wire/sweep.h"
 
 namespace ricochet {
+
 int64_t Crc32cOf(const v1::SweepResponse& chunk) {
   return ExtendCrc32c(ExtendCrc32c(ExtendCrc32c(0, chunk.values()), chunk.regimes()), chunk.statuses());
 }

@@ -157,7 +157,6 @@ struct Map<ContactAcceleration> : Between<ContactAcceleration, v1::ContactAccele
 
 // A scene has its restitution and the dependence on speed as two members. The message of both is sent if one is set.
 struct RestitutionEntry {
-  using P = v1::Restitution;
   static constexpr auto kFields =
       Entries(Flat(&Scene::restitution, OneOf(RICOCHET_FIELD_AS(value, newton), RICOCHET_FIELD_AS(value, poisson),
                                               RICOCHET_FIELD_AS(value, energetic))),

@@ -6,7 +6,8 @@
 //
 // gRPC clients drop a call whose trailers exceed 8 KiB, so a status that does not fit is cut: the details stay within
 // 4 KiB and the percent-encoded message within 2 KiB. Violations are dropped from the end, and the last one kept says
-// how many; the message lists the violations kept. Any other message ends with the number of bytes that were cut.
+// that there are more; the message lists the violations kept. Any other message ends with the number of bytes that were
+// cut.
 
 #ifndef RICOCHET_PROTO_WIRE_STATUS_H_
 #define RICOCHET_PROTO_WIRE_STATUS_H_

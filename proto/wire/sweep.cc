@@ -1,7 +1,6 @@
 #include "proto/wire/sweep.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 
 #include "proto/wire/demand.h"
@@ -17,7 +16,6 @@ static_assert(kRegimeCount == v1::Regime_ARRAYSIZE, "SweepSummary::by_regime nee
 static_assert(kModelCount == v1::Model_ARRAYSIZE, "SweepSummary::by_model needs an entry for each model");
 static_assert(kRowStatusCount == v1::RowStatus_ARRAYSIZE);
 static_assert(kEffectCount == v1::Effect_ARRAYSIZE);
-static_assert(std::endian::native == std::endian::little, "a chunk has the bytes of its doubles from the lowest on");
 static_assert(v1::Regime_MAX <= 255, "a chunk has one byte for each regime");
 
 template <>
@@ -121,12 +119,8 @@ void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto) {
   proto.set_count(chunk.count);
   proto.mutable_values()->assign(reinterpret_cast<const char*>(chunk.values.data()),
                                  chunk.values.size() * sizeof(double));
-  proto.mutable_regimes()->resize(chunk.regimes.size());
-  std::transform(chunk.regimes.begin(), chunk.regimes.end(), proto.mutable_regimes()->begin(),
-                 [](Regime regime) { return static_cast<char>(ToProto(regime)); });
-  proto.mutable_statuses()->resize(chunk.statuses.size());
-  std::transform(chunk.statuses.begin(), chunk.statuses.end(), proto.mutable_statuses()->begin(),
-                 [](RowStatus status) { return static_cast<char>(ToProto(status)); });
+  SetCodes(chunk.regimes, *proto.mutable_regimes());
+  SetCodes(chunk.statuses, *proto.mutable_statuses());
   proto.set_points_done(chunk.points_done);
   proto.set_points_total(chunk.points_total);
   proto.mutable_tallies()->Clear();
@@ -145,13 +139,9 @@ SweepChunk FromProto(const v1::SweepResponse& proto) {
   chunk.values.resize(proto.values().size() / sizeof(double));
   CopyDoubles(proto.values(), absl::MakeSpan(chunk.values));
   chunk.regimes.resize(proto.regimes().size());
-  std::transform(proto.regimes().begin(), proto.regimes().end(), chunk.regimes.begin(), [](char number) {
-    return FromProto<Regime>(static_cast<v1::Regime>(static_cast<unsigned char>(number)));
-  });
+  std::transform(proto.regimes().begin(), proto.regimes().end(), chunk.regimes.begin(), CodeOf<Regime>);
   chunk.statuses.resize(proto.statuses().size());
-  std::transform(proto.statuses().begin(), proto.statuses().end(), chunk.statuses.begin(), [](char number) {
-    return FromProto<RowStatus>(static_cast<v1::RowStatus>(static_cast<unsigned char>(number)));
-  });
+  std::transform(proto.statuses().begin(), proto.statuses().end(), chunk.statuses.begin(), CodeOf<RowStatus>);
   chunk.points_done = proto.points_done();
   chunk.points_total = proto.points_total();
   if (proto.has_tallies()) chunk.tallies = FromProto(proto.tallies());

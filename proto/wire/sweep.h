@@ -4,6 +4,7 @@
 #define RICOCHET_PROTO_WIRE_SWEEP_H_
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
 #include "absl/types/span.h"
@@ -33,10 +34,26 @@ SweepSummary FromProto(const v1::SweepSummary& proto);
 void ToProto(const SweepSummary& summary, v1::SweepSummary& proto);
 void FromProto(const v1::SweepSummary& proto, SweepSummary& summary);
 
+static_assert(std::endian::native == std::endian::little, "columns have the bytes of their doubles from the lowest on");
+
 // Fills `doubles` from the first of `bytes`, which may lie at any address. Unlike memcpy, std::copy_n may be given the
 // address of an empty span, which is null.
 inline void CopyDoubles(const std::string& bytes, absl::Span<double> doubles) {
   std::copy_n(bytes.data(), doubles.size() * sizeof(double), reinterpret_cast<char*>(doubles.data()));
+}
+
+// Returns the regime or the status that a byte of a column has by its number. A number that this build does not know
+// becomes kUnspecified.
+template <typename Code>
+Code CodeOf(char byte) {
+  return FromProto<Code>(static_cast<typename EnumPair<Code>::Other>(static_cast<unsigned char>(byte)));
+}
+
+// Sets `bytes` to the numbers of regimes or statuses.
+template <typename Codes>
+void SetCodes(const Codes& codes, std::string& bytes) {
+  bytes.resize(codes.size());
+  std::transform(codes.begin(), codes.end(), bytes.begin(), [](auto code) { return static_cast<char>(code); });
 }
 
 // Sets or clears every field of `proto`, whose capacity is reused. The seal is cleared: proto/wire/chunk_seal.h puts it
