@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
@@ -77,10 +76,7 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     }
     const FieldDescriptor* field = Field();
     if (!Value(FieldDescriptor::CPPTYPE_MESSAGE)) return false;
-    // Types of protobuf itself have a JSON of their own.
-    const bool is_known = field != nullptr && !field->is_map() && field->message_type() != nullptr &&
-                          !absl::StartsWith(field->message_type()->full_name(), "google.");
-    return Descend({.type = is_known ? field->message_type() : nullptr});
+    return Descend({.type = field == nullptr ? nullptr : field->message_type()});
   }
   bool end_object() override { return Leave(); }
   bool start_array(size_t) override {
@@ -186,9 +182,7 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     Level& level = levels_.back();
     const FieldDescriptor* field = Field();
     if (field == nullptr) return true;
-    const bool is_message = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
-    const bool is_own = is_message && absl::StartsWith(field->message_type()->full_name(), "google.");
-    if (is_message && !is_own && kind != FieldDescriptor::CPPTYPE_MESSAGE) {
+    if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && kind != FieldDescriptor::CPPTYPE_MESSAGE) {
       return Fail(absl::StrCat(Path(), ": must be an object {...} with the fields of ", field->message_type()->name()));
     }
     const bool is_number = field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE;
@@ -196,7 +190,7 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
       return Fail(absl::StrCat(Path(), ": must be a number"));
     }
     if (level.is_list) return true;
-    if (field->is_repeated() && !field->is_map()) return Fail(absl::StrCat(Path(), ": must be a list [...]"));
+    if (field->is_repeated()) return Fail(absl::StrCat(Path(), ": must be a list [...]"));
     const OneofDescriptor* choice = field->real_containing_oneof();
     if (choice == nullptr) return true;
     const auto [other, is_first] = level.chosen.emplace(choice, field->name());

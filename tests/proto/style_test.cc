@@ -155,8 +155,13 @@ class Lint {
       case FieldDescriptor::TYPE_ENUM:
       case FieldDescriptor::TYPE_INT32:
       case FieldDescriptor::TYPE_INT64:
-      case FieldDescriptor::TYPE_MESSAGE:
       case FieldDescriptor::TYPE_STRING:
+        return;
+      case FieldDescriptor::TYPE_MESSAGE:
+        // Maps and the types of protobuf itself have a JSON of their own, which proto/text/json_errors.h does not know.
+        if (!field.is_map() && field.message_type()->file()->package() == field.file()->package()) return;
+        faults_.push_back(absl::StrCat(field.full_name(), " is a ", field.message_type()->full_name(),
+                                       ": must be a message of the service"));
         return;
       case FieldDescriptor::TYPE_BYTES:
         // Columns that foreign clients read at the speed of memory.
