@@ -15,7 +15,6 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/strip.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/text/json_text.h"
 #include "google/rpc/status.pb.h"

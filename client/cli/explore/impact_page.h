@@ -1,9 +1,9 @@
 // ImpactPage: one impact as an HTML page, in the pictures of impact_page.html.
 //
 // The page either asks an engine over HTTP, or has its answers in itself and needs nothing beside it. What differs is
-// the JSON text that takes the place of {{start}} in the file: the words for regimes and events, the scenes to start
-// from, the scene if there is one, and the answers of a page that asks nobody. {{nonce}} stands for the nonce that the
-// content security policy demands of its style and its script.
+// the JSON text that takes the place of {{start}} in the file: the scenes to start from, the scene if there is one, and
+// the answers of a page that asks nobody. {{nonce}} stands for the nonce that the content security policy demands of
+// its style and its script.
 
 #ifndef RICOCHET_CLIENT_CLI_EXPLORE_IMPACT_PAGE_H_
 #define RICOCHET_CLIENT_CLI_EXPLORE_IMPACT_PAGE_H_

@@ -10,6 +10,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/decimal.h"
+#include "core/base/invariant.h"
 
 namespace ricochet::cli {
 namespace {
@@ -18,43 +19,39 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
 
-// Appends a value of a field that is a message, or a bool, a text, bytes or an enum.
-void AppendOther(const Message& message, const FieldDescriptor& field, int index, std::string& text);
 void AppendMessage(const Message& message, std::string& text);
 
 // Appends entry `index` of a list, or with index -1 the value of a field that is no list.
 void AppendValue(const Message& message, const FieldDescriptor& field, int index, std::string& text) {
   const Reflection& in = *message.GetReflection();
-  const bool is_list = index >= 0;
+  const auto get = [&](auto of_field, auto of_entry) {
+    return index >= 0 ? (in.*of_entry)(message, &field, index) : (in.*of_field)(message, &field);
+  };
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
-      return AppendJson(is_list ? in.GetRepeatedDouble(message, &field, index) : in.GetDouble(message, &field), text);
+      return AppendJson(get(&Reflection::GetDouble, &Reflection::GetRepeatedDouble), text);
     case FieldDescriptor::CPPTYPE_INT64:
-      return AppendJson(is_list ? in.GetRepeatedInt64(message, &field, index) : in.GetInt64(message, &field), text);
+      return AppendDecimal(get(&Reflection::GetInt64, &Reflection::GetRepeatedInt64), text);
     case FieldDescriptor::CPPTYPE_INT32:
-      return AppendJson(int64_t{is_list ? in.GetRepeatedInt32(message, &field, index) : in.GetInt32(message, &field)},
-                        text);
-    default:
-      return AppendOther(message, field, index, text);
+      return AppendDecimal(get(&Reflection::GetInt32, &Reflection::GetRepeatedInt32), text);
+    case FieldDescriptor::CPPTYPE_BOOL:
+      text += get(&Reflection::GetBool, &Reflection::GetRepeatedBool) ? "true" : "false";
+      return;
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return AppendJson(get(&Reflection::GetEnum, &Reflection::GetRepeatedEnum)->name(), text);
+    case FieldDescriptor::CPPTYPE_STRING: {
+      const std::string value = get(&Reflection::GetString, &Reflection::GetRepeatedString);
+      return AppendJson(field.type() == FieldDescriptor::TYPE_BYTES ? absl::Base64Escape(value) : value, text);
+    }
+    case FieldDescriptor::CPPTYPE_MESSAGE:
+      return AppendMessage(index >= 0 ? in.GetRepeatedMessage(message, &field, index) : in.GetMessage(message, &field),
+                           text);
+    case FieldDescriptor::CPPTYPE_FLOAT:
+    case FieldDescriptor::CPPTYPE_UINT32:
+    case FieldDescriptor::CPPTYPE_UINT64:
+      break;
   }
-}
-
-void AppendOther(const Message& message, const FieldDescriptor& field, int index, std::string& text) {
-  const Reflection& in = *message.GetReflection();
-  const bool is_list = index >= 0;
-  if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
-    return AppendMessage(is_list ? in.GetRepeatedMessage(message, &field, index) : in.GetMessage(message, &field),
-                         text);
-  }
-  if (field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL) {
-    const bool value = is_list ? in.GetRepeatedBool(message, &field, index) : in.GetBool(message, &field);
-    text += value ? "true" : "false";
-  } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM) {
-    AppendJson((is_list ? in.GetRepeatedEnum(message, &field, index) : in.GetEnum(message, &field))->name(), text);
-  } else {
-    const std::string value = is_list ? in.GetRepeatedString(message, &field, index) : in.GetString(message, &field);
-    AppendJson(field.type() == FieldDescriptor::TYPE_BYTES ? absl::Base64Escape(value) : value, text);
-  }
+  CheckInvariant(false, "the service's messages have fields of these kinds only");
 }
 
 void AppendList(const Message& message, const FieldDescriptor& field, std::string& text) {
@@ -98,8 +95,6 @@ void AppendJson(double number, std::string& text) {
     AppendDecimal(number, text);
   }
 }
-
-void AppendJson(int64_t number, std::string& text) { AppendDecimal(number, text); }
 
 void AppendJson(absl::string_view words, std::string& text) {
   text += nlohmann::json(std::string(words)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

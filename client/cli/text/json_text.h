@@ -4,7 +4,6 @@
 #ifndef RICOCHET_CLIENT_CLI_TEXT_JSON_TEXT_H_
 #define RICOCHET_CLIENT_CLI_TEXT_JSON_TEXT_H_
 
-#include <cstdint>
 #include <string>
 
 #include "absl/strings/string_view.h"
@@ -17,8 +16,6 @@ namespace ricochet::cli {
 
 // Appends the shortest decimal that reads back as the same double.
 void AppendJson(double number, std::string& text);
-// Appends `number` in decimal.
-void AppendJson(int64_t number, std::string& text);
 // Appends a text in quotes.
 void AppendJson(absl::string_view words, std::string& text);
 
