@@ -178,6 +178,22 @@ class ExplorePageTest(unittest.TestCase):
         self.assert_shows_the_answer_of_its_scene()
         self.assertEqual(self.browser.console(), [])
 
+    def test_a_link_holds_a_mechanism_of_many_coordinates(self):
+        n = 7
+        numbers = {"mass_matrix": [int(i % (n + 1) == 0) for i in range(n * n)],
+                   "jacobian": [int(i % (n + 1) == 0) for i in range(3 * n)], "rates": [0.3, 0, -1, 0, 0, 0, 0.1]}
+        fields = [f"mechanism.{name}[{i}]={value}"
+                  for name, values in numbers.items() for i, value in enumerate(values)]
+        self.open("&".join(["yours", *fields, "mechanism.composite=true", "friction.kinetic_coefficient=0.2",
+                            "restitution.newton=0.5"]))
+        self.assert_shows_the_answer_of_its_scene()
+        # All numbers have a slider: those of the mechanism, friction and restitution.
+        self.assertEqual(self.browser.script("return document.querySelectorAll('.field').length"), len(fields) + 2)
+        self.browser.script("[...document.querySelectorAll('#forms button')].find(b => b.textContent == 'Python')"
+                            ".click()")
+        self.assertIn('"composite": True', self.browser.script("return document.getElementById('copied').value"))
+        self.assertEqual(self.browser.console(), [])
+
     def test_can_be_read_on_wide_and_narrow_screens(self):
         for width in (1600, 1280, 800, 400):
             for scheme in ("light", "dark"):
