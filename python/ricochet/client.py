@@ -9,7 +9,7 @@ import threading
 import warnings
 import weakref
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Mapping, Sequence, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Mapping, Union, overload
 
 import numpy as np
 
@@ -39,7 +39,7 @@ _VERDICTS = _core.enum_names("LimitCheck.Verdict")
 _WITHOUT_NUMBERS = [_STATUSES.index(name) for name in ("INVALID", "NOT_REPRESENTABLE")]
 _WITHOUT_END = [_REGIMES.index(name) for name in ("WEDGED", "NO_SOLUTION")]
 _SIDES = {"both": "value", "below": "from_below", "above": "from_above"}
-_MOST_AUDIT_ROWS = 8192  # One call takes so many.
+_MOST_AUDIT_ROWS = 8192  # In one call, where the server allows as many.
 _clients: "weakref.WeakSet[Client]" = weakref.WeakSet()
 
 
@@ -313,8 +313,8 @@ class Client:
         given = names.by_full_name(columns, _core.field_names("AuditColumns"), "columns")
         arrays = {name: _columns_of(name, column) for name, column in given.items()}
         rows = _row_count([column.shape[-1] for column in arrays.values()])
-        index = _index_of(columns, given, rows)
-        most = min(self._limit("max_audit_rows"), _MOST_AUDIT_ROWS)
+        index = _index_of("columns", columns, given, rows)
+        most = self._most_audit_rows()
         answers = []
         for start in range(0, max(rows, 1), most):  # Without rows one call checks the scene.
             part: dict[str, Any] = {
@@ -455,7 +455,7 @@ class Client:
                     for row, status, field, description in bad_rows
                 ],
             ),
-            index=_index_of(inputs, given, len(regimes)),
+            index=_index_of("inputs", inputs, given, len(regimes)),
         )
 
     @overload
@@ -574,7 +574,7 @@ class Client:
             arguments["states"] = [{"velocity": state} for state in rows]
         if outputs is not None:
             if not isinstance(outputs, Mapping):
-                values.refuse("outputs", f"= {values.shown(outputs)}: must be a dictionary")
+                values.dictionary_expected(outputs, "outputs")
             arguments["outputs"] = [{"name": name, "coefficients": outputs[name]} for name in outputs]
         if stiffness_range is not None:
             if not values.is_list(stiffness_range) or len(stiffness_range) != 3:
@@ -670,16 +670,16 @@ class Client:
         """Returns which engine answers, what it can compute, and its limits, as ricochet.v1.InfoResponse has them."""
         return self._solver.info()
 
-    def _limit(self, name: str) -> int:
-        """Returns a limit of a request, >= 1; 2^31 if there is none."""
+    def _most_audit_rows(self) -> int:
+        """Returns how many rows one call of an audit takes."""
         if self._limits is None:
             self._limits = self.info().limits
-        limit = self._limits[name]
+        limit = self._limits["max_audit_rows"]
         if limit is None:
-            return 1 << 31
+            return _MOST_AUDIT_ROWS
         if limit < 1:  # Rows in parts of no row would be lost in silence.
-            raise RicochetError(f"the server states {name} = {limit}: must be >= 1", code="DATA_LOSS")
-        return int(limit)
+            raise RicochetError(f"the server states max_audit_rows = {limit}: must be >= 1", code="DATA_LOSS")
+        return min(int(limit), _MOST_AUDIT_ROWS)
 
 
 def _module_client() -> Client:
@@ -729,16 +729,18 @@ def _range(path: str, ends: Any) -> dict[str, Any]:
     return {"path": path, "low": pair[0], "high": pair[1]}
 
 
-def _index_of(given: Any, columns: Mapping[str, Any], rows: int) -> Any:
+def _index_of(argument: str, given: Any, columns: Mapping[str, Any], rows: int) -> Any:
     """Returns the index of a pandas frame, or the one that all series with so many rows have; None if there is none."""
     indices = [one.index for one in (given, *columns.values()) if hasattr(one, "iloc") and len(one) == rows]
     if not all(index.equals(indices[0]) for index in indices):
-        raise InvalidRequest.of([Violation("inputs", "has series of different indices: must have one index for all")])
+        values.refuse(argument, "has series of different indices: must have one index for all")
     return indices[0] if indices else None
 
 
 def _full_paths(derivatives: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, Any]:
     """Returns what is asked of derivatives, with the full names of those numbers whose names are known."""
+    if not isinstance(derivatives, Mapping):
+        values.dictionary_expected(derivatives, "derivatives")
     return {key: names.full_names(values.names(value, key), known[key], key) if key in known else value
             for key, value in derivatives.items()}
 

@@ -10,7 +10,7 @@ from ricochet import _core
 from ricochet.errors import InvalidRequest, OutOfRange, Violation
 from ricochet.record import Record
 from ricochet.table import Table
-from ricochet.values import column, is_list, scalar
+from ricochet.values import column, is_list, refuse, scalar
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -83,7 +83,7 @@ class States:
         listed = held if is_list(held) else [held]
         if any(isinstance(entry, (bool, np.bool_)) for entry in listed):
             rule = "has truth values: must have the numbers of coordinates, from 0; np.flatnonzero makes them of a mask"
-            raise InvalidRequest.of([Violation("held", rule)])
+            refuse("held", rule)
         self.held = [int(scalar("int32", entry, f"held[{i}]")) for i, entry in enumerate(listed)]
         wrong += [Violation(f"held[{i}]", f"= {entry}: must be in [0, {n})")
                   for i, entry in enumerate(self.held) if not 0 <= entry < n]

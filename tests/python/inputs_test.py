@@ -156,6 +156,10 @@ class Numbers(Case):
         for call in (ricochet.solve, ricochet.bounds, lambda scene: ricochet.sweep(scene, {"mu": 0}, "newton")):
             self.refused(lambda: call("hello"), "scene", "= 'hello': must be a dictionary")
 
+    def test_what_is_asked_of_derivatives_is_a_dictionary(self):
+        for call in (ricochet.solve, ricochet.bounds):
+            self.refused(lambda: call(PENDULUM, derivatives=["newton"]), "derivatives", "must be a dictionary")
+
 
 class Matrices(Case):
     W = np.array([[1.96, 0.24, 0.6], [0.24, 2.96, -0.8], [0.6, -0.8, 1.85]])
@@ -256,6 +260,8 @@ class Frames(Case):
     def test_series_of_different_indices_are_refused(self):
         columns = {MU: pandas.Series([0.0, 0.1], [1, 2]), "pendulum.a_m": pandas.Series([0.3, 0.4], [2, 1])}
         self.refused(lambda: ricochet.solve_batch(PENDULUM, columns, NEWTON), "inputs", "different indices")
+        observed = dict(zip(["normal_after_m_s", "tangential_after_m_s"], columns.values()))
+        self.refused(lambda: ricochet.audit_batch(PENDULUM, observed), "columns", "different indices")
 
     def test_a_column_of_texts_is_named(self):
         frame = pandas.DataFrame({MU: [0.0, 0.1], "pendulum.a_m": ["a", "b"]})
