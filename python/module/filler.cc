@@ -132,7 +132,7 @@ absl::Status PackW(const Matrix& w, google::protobuf::Message& message) {
   return absl::OkStatus();
 }
 
-// Returns whether `value` is a plain list of six numbers.
+// Returns whether `value` is a plain list of six numbers, of which no array need be made.
 bool HasSixNumbers(PyObject* value) {
   return PyList_CheckExact(value) && PyList_GET_SIZE(value) == 6 && PyFloat_Check(PyList_GET_ITEM(value, 0));
 }
@@ -187,11 +187,11 @@ void Filler::Fill(py::handle values, Message& message, const Place* place) {
 }
 
 bool Filler::FillMatrix(py::handle value, Message& message, const Place& place, const py::dict& beside) {
-  if (value.is_none() || HasSixNumbers(value.ptr())) return false;
+  const auto& type = *message.GetDescriptor();
+  if (value.is_none() || (HasSixNumbers(value.ptr()) && IsList(type, 6))) return false;
   const py::object column = Ask("column", value, place.Text());
   if (!column) return true;
   const Matrix matrix = Matrix::ensure(column);
-  const auto& type = *message.GetDescriptor();
   if (matrix.ndim() == 1 && IsList(type, matrix.size())) return false;
   const auto* const mechanism = dynamic_cast<const v1::Mechanism*>(&message);
   const int rates = mechanism != nullptr && violations_.empty() ? mechanism->rates_size() : 0;

@@ -136,18 +136,23 @@ py::tuple Sweep(const Callee& solver, py::handle scene, const py::dict& argument
                         axes, Provenance(request, engine));
 }
 
-// The values of an axis from `start` to `stop`.
-template <typename Axis_>
-py::array_t<double> AxisOf(double start, double stop, int64_t count) {
-  return ValuesOf({.values = Axis_{.start = start, .stop = stop, .count = count}});
+// Returns the values of an axis from `start` to `stop`. Raises InvalidRequest where a sweep would.
+template <typename Spacing>
+py::array_t<double> SpacedValues(double start, double stop, int64_t count) {
+  const Axis axis = {.values = Spacing{.start = start, .stop = stop, .count = count}};
+  std::vector<Violation> violations = ValidateAxes({.axes = {axis}});
+  // "axes[0].linspace.stop" is an argument here.
+  for (Violation& violation : violations) violation.field.erase(0, violation.field.rfind('.') + 1);
+  if (!violations.empty()) Raise(violations);
+  return ValuesOf(axis);
 }
 
 }  // namespace
 
 void AddRows(py::module_& module, py::class_<Callee>& solver) {
   solver.def("solve_batch", &SolveBatch).def("sweep", &Sweep);
-  module.def("linspace", &AxisOf<Linspace>);
-  module.def("logspace", &AxisOf<Logspace>);
+  module.def("linspace", &SpacedValues<Linspace>, py::arg("start"), py::arg("stop"), py::arg("count"));
+  module.def("logspace", &SpacedValues<Logspace>, py::arg("start"), py::arg("stop"), py::arg("count"));
 }
 
 }  // namespace ricochet::python

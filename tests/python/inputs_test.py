@@ -196,8 +196,9 @@ class Matrices(Case):
     def test_another_shape_is_told_the_order(self):
         for w in ([1, 2, 3, 4, 5], np.eye(2), np.eye(4), np.ones((3, 2)), 3, np.zeros(0)):
             self.refused(lambda: ricochet.Scene(self.contact(w)), "spatial_contact.w_per_kg", "11, 12, 13, 22, 23, 33")
-        self.refused(lambda: ricochet.Scene({"planar_contact": {"w_per_kg": np.eye(3)}}), "planar_contact.w_per_kg",
-                     "2 x 2")
+        for w in (np.eye(3), [2.0, 1.0, 3.0], [1.0] * 6):
+            self.refused(lambda: ricochet.Scene({"planar_contact": {"w_per_kg": w}}), "planar_contact.w_per_kg",
+                         "2 x 2")
         self.refused(lambda: ricochet.Scene({"planar_contact": {"w_per_kg": np.eye(2), "w_tn_per_kg": 0}}),
                      "planar_contact.w_tn_per_kg", "set together")
         self.refused(lambda: ricochet.Scene(self.contact([[1, 0, "x"], [0, 1, 0], [0, 0, 1]])),
