@@ -351,6 +351,15 @@ class Answerer {
            outcome.end == MultiContactEnd::kEndlessEstimate;
   }
 
+  // True if the error of a contact velocity is so large that outcomes which differ may seem alike.
+  bool IsVague(const AttainedOutcome* outcome) const {
+    constexpr double kMostError = 1e-3;
+    const double mobility = sorted_.problem.w.diagonal().maxCoeff();
+    const double most = kMostError * metric_.root_energy * std::sqrt(mobility) * v_scale_;
+    return std::any_of(outcome->contact_velocity_error_m_s.begin(), outcome->contact_velocity_error_m_s.end(),
+                       [most](double error) { return !(error <= most); });
+  }
+
   // Names the two outcomes of `x` and `y` that differ most, and returns whether any two do.
   bool Compare(const std::vector<const AttainedOutcome*>& x, const std::vector<const AttainedOutcome*>& y) {
     double most = 0.0;
@@ -395,13 +404,16 @@ class Answerer {
     for (const StiffnessSample& sample : answer_.stiffness_samples) {
       if (IsAttained(sample.outcome)) springs.push_back(&sample.outcome);
     }
+    const auto is_vague = [this](const AttainedOutcome* outcome) { return IsVague(outcome); };
+    const bool are_known = std::none_of(orders.begin(), orders.end(), is_vague);
     if (IsSingle()) {
       answer_.verdict = MultiContactVerdict::kSingle;
     } else if (Compare(orders, orders)) {
       answer_.verdict = MultiContactVerdict::kOrderMatters;
-    } else if ((!has_orders || orders_complete_) && Compare(orders, springs)) {
+    } else if (are_known && (!has_orders || orders_complete_) && Compare(orders, springs)) {
       answer_.verdict = MultiContactVerdict::kOrdersAgreeSpringsDiffer;
-    } else if (has_orders && orders_complete_ && (!has_springs || !springs.empty())) {
+    } else if (are_known && has_orders && orders_complete_ && (!has_springs || !springs.empty()) &&
+               std::none_of(springs.begin(), springs.end(), is_vague)) {
       answer_.verdict = MultiContactVerdict::kOrdersAgree;
     }
   }

@@ -174,11 +174,15 @@ class Motion {
         if (is_broken && Falls(condition, problem_, state_)) falling.push_back(condition.contact);
       }
       if (falling.empty()) return;
-      if (!MayFall(falling)) {
+      if (MayFall(falling)) {
+        Fall(falling);
+      } else if (ComesToRest(falling)) {
+        for (const int i : falling) Open(i);
+        ++result_.events;
+      } else {
         result_.end = MultiContactEnd::kUndetermined;
         return;
       }
-      Fall(falling);
       event_.reset();
       Refresh();
       FindModes();
@@ -196,6 +200,21 @@ class Motion {
       }
     }
     falling.resize(1);
+    return true;
+  }
+
+  // Adds the closed contacts on which those of `falling` act or that act on them. True if all of these are plastic and
+  // at rest: they give nothing back, whatever the ratios of their coefficients are.
+  bool ComesToRest(std::vector<int>& falling) const {
+    for (size_t n = 0; n < falling.size(); ++n) {
+      const int i = falling[n];
+      const bool slips = HasFriction(i) && std::abs(v_(problem_.T(i))) > noise_(problem_.T(i));
+      if (problem_.laws[At(i)].e > 0.0 || slips || std::abs(Normal(i)) > noise_(problem_.N(i))) return false;
+      for (int j = 0; j < k_; ++j) {
+        const bool acts = flow_->NormalByForce(i, j) != 0.0 || flow_->NormalByForce(j, i) != 0.0;
+        if (IsClosed(j) && acts && std::find(falling.begin(), falling.end(), j) == falling.end()) falling.push_back(j);
+      }
+    }
     return true;
   }
 

@@ -31,8 +31,8 @@ std::string SpreadText(const CostTime& time);
 // Returns two digits: "1.2e-16", "0", "unknown" for infinity.
 std::string ErrorText(double error);
 
-// Returns a part of the error made, or the bound that the error of the reference leaves: "<=3.9e-13". It is empty if the
-// error is not known.
+// Returns a part of the error made, or the bound that the error of the reference leaves: "<=3.9e-13". It is empty if
+// the error is not known.
 std::string MadeText(const CostRow& row, double CostError::*part);
 
 // Returns the tolerances of a pick: "1e-12 to 0.001".

@@ -38,9 +38,9 @@ std::string EndText(MultiContactEnd end) {
     case MultiContactEnd::kWedged:
       return "wedged";
     case MultiContactEnd::kBudgetUsedUp:
-      return "not ended";
+      return "not ended, on the way";
     case MultiContactEnd::kUndetermined:
-      return "undetermined";
+      return "undetermined, on the way";
     case MultiContactEnd::kUnspecified:
       break;
   }
@@ -86,8 +86,10 @@ std::string VerdictText(const MultiContactAnswer& answer) {
     case MultiContactVerdict::kUnspecified:
       break;
   }
-  return HasEnded(answer) ? "Undecided: the outcomes that ended are alike, but others could not be found.\n"
-                          : "Undecided: no outcome was followed to its end.\n";
+  return HasEnded(answer)
+             ? "Undecided: the outcomes that ended do not differ by more than their errors, but others could "
+               "not be found, or the errors are large.\n"
+             : "Undecided: no outcome was followed to its end.\n";
 }
 
 // Every outcome with its name, those of orders first.

@@ -119,12 +119,27 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   }
   // The error of a quantity at the state of `path`.
   T GoalError(const Path<T>& path, Quantity quantity) const;
+  // The normal impulse of the phase while the contact slips.
+  T SlipOfPhase(const Path<T>& path) const {
+    return path.Sticks() ? std::clamp(stop_tau_, T{0}, path.state.tau) : path.state.tau;
+  }
+  // The friction impulse for each unit of normal impulse, where the state of `path` is.
+  T FrictionRatio(const Path<T>& path) const { return path.Sticks() ? holding_ : problem_.mu_static; }
+  // A bound on the friction impulse so far.
+  T MostFriction(const Path<T>& path) const {
+    const T tau = compression_end_tau_ + path.state.tau;
+    const T slip = path.Sticks() ? std::clamp(compression_end_tau_ + stop_tau_, T{0}, tau) : tau;
+    return problem_.mu_static * slip + holding_ * (tau - slip);
+  }
   // The rounding of the normal work, which is the mean of v times tau less what u lacks of its mean: over an impulse
-  // tau both change by at most their slopes times tau.
-  T WorkRounding(const State<T>& at) const {
-    return T{4} * kEpsilon<T> * at.tau *
-           (std::max(problem_.approach, std::fabs(at.v)) +
-            (problem_.steepest + problem_.graze * problem_.mu * problem_.rate) * at.tau);
+  // both change by at most their slopes times the impulse. A contact that sticks has no u.
+  T WorkRounding(const Path<T>& path) const {
+    const State<T>& at = path.state;
+    const T slip = SlipOfPhase(path);
+    const T v_change = problem_.steepest * slip + problem_.w.w33 * (at.tau - slip);
+    return T{4} * kEpsilon<T> *
+           (at.tau * (std::max(problem_.approach, std::fabs(at.v)) + v_change) +
+            problem_.graze * problem_.mu * problem_.rate * slip * slip);
   }
   // The errors of u, v and the friction impulse at equal tau.
   T ErrorOfU() const {
@@ -136,13 +151,12 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
     return Size(sum_.doubtful.Velocity1(w), sum_.doubtful.Velocity2(w)) +
            problem_.largest_root * (sum_.friction + sum_.slip_rounding) + u_rounding_ + DoubtOfU();
   }
-  T ErrorOfF(const State<T>& at) const {
+  T ErrorOfF(const Path<T>& path) const {
     if (problem_.HasNoFriction()) return T{0};
     const T most = problem_.keeps_part > T{0} ? kInfinity<T> : T{2} * sum_.slip_rounding / problem_.smallest_root;
     const T strayed = std::min(problem_.mu * sum_.strayed, most);
     return kSafetyOfImpulses * Size(sum_.known.f1, sum_.known.f2) + Size(sum_.doubtful.f1, sum_.doubtful.f2) +
-           sum_.friction / problem_.smallest_root + strayed + f_rounding_ +
-           T{4} * kEpsilon<T> * problem_.mu_static * (compression_end_tau_ + at.tau);
+           sum_.friction / problem_.smallest_root + strayed + f_rounding_ + T{4} * kEpsilon<T> * MostFriction(path);
   }
   // The error of the change of energy in compression or of the whole impact that errors of the impulses at its end
   // make.
@@ -185,6 +199,7 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   T event_distance_{0};
   T compression_end_v_{0};      // the v found in place of 0
   T stop_tau_ = -kInfinity<T>;  // where slip stopped, from the start of the phase
+  T holding_{0};                // the friction that holds the contact, for each unit of normal impulse
   T settles_{0};                // the normal impulse after which the true path sticks as well
   bool in_doubt_ = false;       // Whether the path passes a goal that it came near to, while it was not nearly at rest.
   T doubtful_velocity_{0};      // The largest velocity at which it came near to a goal.
@@ -213,7 +228,8 @@ void ErrorLedger<T>::AddStick(T length, T v) {
 
 template <typename T>
 void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
-  const T margin = problem_.mu - Size(sticking.f1, sticking.f2);
+  holding_ = Size(sticking.f1, sticking.f2);
+  const T margin = problem_.mu - holding_;
   const T error = sum_.friction + sum_.slip_rounding;
   settles_ = error == T{0} ? T{0} : margin > T{0} ? error / (problem_.smallest_root * margin) : kInfinity<T>;
   locks_ = problem_.Locks(sticking);
@@ -233,7 +249,7 @@ template <typename T>
 void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes) {
   const T doubtful = std::fabs(sum_.doubtful.NormalVelocity(problem_.w)) + DoubtOfV();
   compression_ = {.impulse = ImpulseErrorOfVelocityEvent(VelocityError() + doubtful, slopes) + event_distance_,
-                  .work = sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state)};
+                  .work = sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path)};
   known_compression_ = {.impulse = ImpulseErrorOfVelocityEvent(sum_.known.NormalVelocity(problem_.w), slopes),
                         .work = sum_.known.work};
   const T v_error =
@@ -241,7 +257,7 @@ void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes
   EndErrors<T>& at = at_compression_end_;
   at.tau_compression = compression_.impulse + kSafetyOfImpulses * std::fabs(known_compression_.impulse) +
                        T{2} * kEpsilon<T> * path.state.tau;
-  at.f = ErrorOfF(path.state) + problem_.mu_static * at.tau_compression;
+  at.f = ErrorOfF(path) + FrictionRatio(path) * at.tau_compression;
   // The work is the sum of v, whose errors may be larger on the way than they are at the end.
   at.normal_compression = compression_.work + kSafetyOfImpulses * std::fabs(known_compression_.work) +
                           v_error * (at.tau_compression + kOfParts * path.state.tau);
@@ -286,7 +302,7 @@ T ErrorLedger<T>::GoalError(const Path<T>& path, Quantity quantity) const {
     case Quantity::kWork:
       break;
   }
-  return sum_.work + kSafety * std::fabs(sum_.known.work) + std::fabs(sum_.doubtful.work) + WorkRounding(path.state);
+  return sum_.work + kSafety * std::fabs(sum_.known.work) + std::fabs(sum_.doubtful.work) + WorkRounding(path);
 }
 
 template <typename T>
@@ -320,10 +336,10 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
       v_is_turned ? std::fabs(compression_end_v_) + kSafety * std::fabs(sum_.known.NormalVelocity(w)) : T{0};
   const T v_error_of_state = VelocityError() + std::fabs(sum_.doubtful.NormalVelocity(w)) + v_found + DoubtOfV();
   const T jump = compression_end_v_ * compression_end_v_ / std::max(slopes.v, kEpsilon<T>);
-  T impulse = ImpulseErrorOfEnd(path, slopes, v_error_of_state,
-                                sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state) + jump +
-                                    DoubtOfV() * path.state.tau,
-                                compression_) +
+  T impulse = ImpulseErrorOfEnd(
+                  path, slopes, v_error_of_state,
+                  sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path) + jump + DoubtOfV() * path.state.tau,
+                  compression_) +
               event_distance_;
   const T known_impulse = SignedImpulseErrorOfEnd(path, slopes, sum_.known, known_compression_);
   const T all = impulse + kSafety * std::fabs(known_impulse);
@@ -375,10 +391,10 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
   if (path.state.tau <= kShort * errors.tau_compression) {
     errors.tau = std::max(errors.tau, errors.tau_compression + path.state.tau);
   }
-  errors.f = ErrorOfF(path.state) + problem_.mu_static * errors.tau;
+  errors.f = ErrorOfF(path) + FrictionRatio(path) * errors.tau;
   // Restitution that ends with a certain work errs by what that work does, and by root finding.
   const T stated = problem_.coefficient * problem_.coefficient * errors.normal_compression +
-                   std::fabs(path.state.v) * event_distance_ + WorkRounding(path.state);
+                   std::fabs(path.state.v) * event_distance_ + WorkRounding(path);
   const T followed = GoalError(path, Quantity::kWork) + v_error_of_state * (path.state.tau + all) +
                      (std::fabs(path.state.v) + v_slope * all) * (all + errors.tau_compression);
   errors.normal_restitution = path.goal.quantity == Quantity::kWork ? stated + jump : followed + jump;
