@@ -87,8 +87,10 @@ void SetInertia(const PlanarProblem& problem, ScaledContact& contact) {
   if (contact.coupled) contact.at = in_range;
 }
 
+// At rank one Wtt = Wtn^2/Wnn, which must not be rounded on the way. If Wtt = 0, so is Wtn, and nothing has to be held.
 bool HoldsFreely(const PlanarProblem& problem, int rank) {
-  if (rank == 1) return std::fma(problem.mu_static, std::fabs(problem.w.tn), -problem.w.nn) >= 0.0;
+  if (rank == 1 && problem.w.tt > 0.0)
+    return std::fma(problem.mu_static, std::fabs(problem.w.tn), -problem.w.nn) >= 0.0;
   return std::fma(problem.mu_static, problem.w.tt, -std::fabs(problem.w.tn)) >= 0.0;
 }
 

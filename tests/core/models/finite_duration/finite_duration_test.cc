@@ -326,6 +326,15 @@ TEST(FiniteDurationTest, WhereNothingMovesAlongTFrictionTakesNothing) {
   EXPECT_EQ(impact.spring_energy, 0.0);
 }
 
+TEST(FiniteDurationTest, AParticleThatStopsWhereNothingMovesAlongTSticks) {
+  const Problem problem = {
+      .contact = {.w = {0.0, 0.0, 1.0}, .u0 = 0.3, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5, .coefficient = 0.5},
+      .spring = LinearSpring{1e4},
+      .ratio_squared = 1.0};
+  EXPECT_EQ(Solve(problem).regime, Regime::kStickInCompression);
+  EXPECT_EQ(WithoutDuration(problem).regime, Regime::kStickInCompression);
+}
+
 // The integral of a force over a history, by the trapezoidal rule.
 double Integral(const std::vector<ForceSample>& history, double ForceSample::*force) {
   double sum = 0.0;
