@@ -44,6 +44,15 @@ NormalModes MakeNormalModes(const SpringContact& contact, const SectionMode& mod
   return modes;
 }
 
+Oscillations NormalModes::At(const Phase& phase) const {
+  Oscillations at;
+  for (size_t i = 0; i < 2; ++i) {
+    at.y[i] = y[i] * phase.c[i] + rate[i] * phase.s[i];
+    at.rate[i] = rate[i] * phase.c[i] - w[i] * w[i] * y[i] * phase.s[i];
+  }
+  return at;
+}
+
 Signal NormalModes::Combination(double first, double second) const {
   return {.a = {first * y[0], second * y[1]}, .b = {first * rate[0], second * rate[1]}};
 }

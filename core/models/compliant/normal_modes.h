@@ -13,11 +13,18 @@
 
 namespace ricochet::compliant {
 
+// The components along the eigenvectors, and their rates.
+struct Oscillations {
+  std::array<double, 2> y = {}, rate = {};
+};
+
 struct NormalModes {
   Frequencies w;
   double c = 1.0, s = 0.0;
   std::array<double, 2> y = {}, rate = {};  // Components along the eigenvectors at the start, and their rates.
 
+  // The oscillations at the time of `phase`.
+  Oscillations At(const Phase& phase) const;
   // The signal first y_0(t) + second y_1(t).
   Signal Combination(double first, double second) const;
 };

@@ -33,7 +33,6 @@ Phase Frequencies::At(double t) const {
     const double half = w > 0.0 ? sine / w : 0.5 * t;
     phase.c[i] = 1.0 - 2.0 * sine * sine;
     phase.s[i] = 2.0 * half * cosine;
-    phase.c_integral[i] = phase.s[i];
     phase.s_integral[i] = 2.0 * half * half;
   }
   return phase;

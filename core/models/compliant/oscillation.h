@@ -21,9 +21,9 @@ inline constexpr double kAngleError = 0x1p-24;
 // Returns the angle in [-pi, pi] of the direction (x, y), 0 for (0, 0).
 double Angle(double x, double y);
 
-// The values of both oscillations at one time: cos(w t), sin(w t)/w, and their integrals from 0.
+// The values of both oscillations at one time: cos(w t), its integral sin(w t)/w from 0, and the integral of that.
 struct Phase {
-  std::array<double, 2> c, s, c_integral, s_integral;
+  std::array<double, 2> c, s, s_integral;
 };
 
 struct Frequencies {

@@ -106,19 +106,10 @@ void PathError::AddSlide(const SectionMode& mode, const SlideRates& rates, const
   LeaveSection(mode, after, end);
 }
 
-PathError::Oscillations PathError::EndOf(const NormalModes& modes, const Phase& phase) {
-  Oscillations end;
-  for (size_t i = 0; i < 2; ++i) {
-    end.y[i] = modes.y[i] * phase.c[i] + modes.rate[i] * phase.s[i];
-    end.rate[i] = modes.rate[i] * phase.c[i] - modes.w[i] * modes.w[i] * modes.y[i] * phase.s[i];
-  }
-  return end;
-}
-
 void PathError::AddStick(const SectionMode& mode, const NormalModes& modes, const Phase& phase, double time,
                          const ContactState& before, const ContactState& after, const SectionEnd& end) {
   EnterModes(mode, modes, before);
-  const Oscillations at_end = EndOf(modes, phase);
+  const Oscillations at_end = modes.At(phase);
   CarryModes(modes, phase, time, at_end);
   LeaveModes(mode, modes, at_end, after, end);
   LeaveSection(mode, after, end);

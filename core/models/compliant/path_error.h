@@ -53,12 +53,6 @@ class PathError {
  private:
   using Covariance = std::array<std::array<double, 4>, 4>;
 
-  // Both oscillations of a stick, and their rates.
-  struct Oscillations {
-    std::array<double, 2> y, rate;
-  };
-  static Oscillations EndOf(const NormalModes& modes, const Phase& phase);
-
   template <typename Map>
   void Transform(const Map& map);
   void AddVariances(const Deviation& errors);

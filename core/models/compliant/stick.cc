@@ -83,13 +83,9 @@ void Advance(const SpringContact& contact, const SectionMode& mode, const Normal
              const Phase& phase, ContactState& state) {
   const double ratio = std::sqrt(contact.ratio_squared);
   const double root = contact.RootOfStiffness(mode.branch);
-  std::array<double, 2> y = {}, rate = {}, integral = {};
-  for (size_t i = 0; i < 2; ++i) {
-    const double w = modes.w[i];
-    y[i] = modes.y[i] * phase.c[i] + modes.rate[i] * phase.s[i];
-    rate[i] = modes.rate[i] * phase.c[i] - w * w * modes.y[i] * phase.s[i];
-    integral[i] = modes.y[i] * phase.c_integral[i] + modes.rate[i] * phase.s_integral[i];
-  }
+  const auto [y, rate] = modes.At(phase);
+  std::array<double, 2> integral = {};
+  for (size_t i = 0; i < 2; ++i) integral[i] = modes.y[i] * phase.s[i] + modes.rate[i] * phase.s_integral[i];
   state.normal_force = event.end.passes_largest ? mode.largest_normal_force : root * (modes.s * y[0] + modes.c * y[1]);
   state.spring_force = (modes.c * y[0] - modes.s * y[1]) / ratio;
   if (event.end.breaks_away != 0) PutOnCone(contact, event.end.breaks_away, state);
