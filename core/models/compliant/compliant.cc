@@ -188,7 +188,7 @@ Impact Solve(const Problem& problem) {
   const PlanarProblem scaled = InUnits(stated, units);
   const SpringContact contact = MakeSpringContact(scaled, ratio_squared);
   Impact impact;
-  const PathResult path = FollowPath(contact, scaled.u0, scaled.v0, &impact.sections);
+  const PathResult path = FollowPath(contact, scaled.u0, scaled.v0, impact.sections);
   impact.regime = RegimeOf(contact, path);
   impact.termination = path.termination;
   impact.w_rank = contact.rank;

@@ -17,7 +17,7 @@ FrictionState FrictionOf(const SectionMode& mode) {
 
 class PathFollower {
  public:
-  PathFollower(const SpringContact& contact, double u0, double v0, std::vector<Section>* sections)
+  PathFollower(const SpringContact& contact, double u0, double v0, std::vector<Section>& sections)
       : contact_(contact), error_(contact), sections_(sections) {
     state_.u = contact.u_follows_v ? v0 * (contact.wtn / contact.wnn) : u0;
     state_.v = v0;
@@ -77,14 +77,13 @@ class PathFollower {
 
   void Record() {
     if (mode_.Sticks() && !compressions_before_stick_.has_value()) compressions_before_stick_ = compressions_;
-    if (sections_ == nullptr) return;
-    sections_->push_back({.friction = FrictionOf(mode_),
-                          .first_loading = mode_.IsFirstLoading(),
-                          .indenting = mode_.indenting,
-                          .tau = state_.tau,
-                          .f = state_.f,
-                          .u = state_.u,
-                          .v = state_.v});
+    sections_.push_back({.friction = FrictionOf(mode_),
+                         .first_loading = mode_.IsFirstLoading(),
+                         .indenting = mode_.indenting,
+                         .tau = state_.tau,
+                         .f = state_.f,
+                         .u = state_.u,
+                         .v = state_.v});
   }
 
   // Returns false if the impact ends here.
@@ -142,7 +141,7 @@ class PathFollower {
 
   const SpringContact& contact_;
   PathError error_;
-  std::vector<Section>* sections_;
+  std::vector<Section>& sections_;
   ContactState state_;
   ContactState compression_end_;
   double compression_force_error_ = 0.0, compression_u_error_ = 0.0;
@@ -155,7 +154,7 @@ class PathFollower {
 
 }  // namespace
 
-PathResult FollowPath(const SpringContact& contact, double u0, double v0, std::vector<Section>* sections) {
+PathResult FollowPath(const SpringContact& contact, double u0, double v0, std::vector<Section>& sections) {
   return PathFollower(contact, u0, v0, sections).Follow();
 }
 

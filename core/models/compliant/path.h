@@ -30,8 +30,8 @@ struct PathResult {
   bool Ends() const { return termination == Termination::kConverged; }
 };
 
-// Appends to `sections` each section's start, unless it is null.
-PathResult FollowPath(const SpringContact& contact, double u0, double v0, std::vector<Section>* sections);
+// Appends to `sections` each section's start.
+PathResult FollowPath(const SpringContact& contact, double u0, double v0, std::vector<Section>& sections);
 
 }  // namespace ricochet::compliant
 
