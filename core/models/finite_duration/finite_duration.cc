@@ -255,8 +255,4 @@ Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped) {
   return impact;
 }
 
-Impact Solve(const Problem& problem) {
-  return Solve(problem, [] { return false; });
-}
-
 }  // namespace ricochet::finite_duration

@@ -64,8 +64,8 @@ const char* WhyUnavailable();
 inline bool IsAvailable() { return WhyUnavailable() == nullptr; }
 
 // Asks `stopped` every few dozen steps, in less than a millisecond, and ends soon after it says true.
-Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped);
-Impact Solve(const Problem& problem);
+Impact Solve(
+    const Problem& problem, absl::FunctionRef<bool()> stopped = [] { return false; });
 
 // The C library's base^exponent, base >= 0, as SUNDIALS takes it where it chooses steps. Its last bits, and with them
 // those of Solve, differ from one machine to another.

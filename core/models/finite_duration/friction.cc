@@ -14,8 +14,14 @@ double ParticleAcceleration(const ScaledContact& contact, const Mode& mode, cons
   const Acceleration rate = AccelerationAt(contact, sliding, forces);
   const double pull = direction * rate.u + share * rate.v;
   if (forces.normal != 0.0 || pull != 0.0) return pull;
-  const Acceleration& slope = direction < 0.0 ? contact.backward_slope : contact.forward_slope;
+  const Acceleration& slope = contact.SlipSlope(direction);
   return direction * slope.u + share * slope.v;
+}
+
+// True if the particle slides towards `direction`: its speed towards it is positive, or 0 and does not fall.
+bool ParticleSlides(const ScaledContact& contact, const Mode& mode, const Motion& y, double direction) {
+  const double speed = direction * y[kU] + ParticleShare(contact, mode) * y[kV];
+  return speed > 0.0 || (speed == 0.0 && ParticleAcceleration(contact, mode, y, direction) >= 0.0);
 }
 
 FrictionState CompliantFrictionAfter(const ScaledContact& contact, const Mode& mode, const Motion& y, Guard fallen) {
@@ -25,9 +31,7 @@ FrictionState CompliantFrictionAfter(const ScaledContact& contact, const Mode& m
   }
   // The upper side is that of F > 0, which acts on a particle that slides backwards.
   const double direction = fallen == kUpper ? -1.0 : 1.0;
-  const double speed = direction * y[kU] + ParticleShare(contact, mode) * y[kV];
-  const bool slides = speed > 0.0 || (speed == 0.0 && ParticleAcceleration(contact, mode, y, direction) >= 0.0);
-  return slides ? SlipTowards(direction) : mode.friction;
+  return ParticleSlides(contact, mode, y, direction) ? SlipTowards(direction) : mode.friction;
 }
 
 }  // namespace
@@ -43,10 +47,8 @@ FrictionState FrictionAtRest(const ScaledContact& contact, double normal) {
 FrictionState FrictionAtStart(const ScaledContact& contact) {
   if (contact.smooth) return FrictionState::kNone;
   if (!contact.compliant) return contact.u0 == 0.0 ? FrictionAtRest(contact, 0.0) : SlipTowards(contact.u0);
-  const double speed = std::fabs(contact.u0) - contact.mu * contact.ratio_squared;
   const double direction = contact.u0 < 0.0 ? -1.0 : 1.0;
-  const bool slides =
-      speed > 0.0 || (speed == 0.0 && ParticleAcceleration(contact, {}, MotionAtStart(contact), direction) >= 0.0);
+  const bool slides = ParticleSlides(contact, {}, MotionAtStart(contact), direction);
   return slides ? SlipTowards(direction) : FrictionState::kStick;
 }
 

@@ -73,9 +73,8 @@ Acceleration AccelerationAt(const ScaledContact& contact, const Mode& mode, cons
     return {0.0, contact.stick_slope * forces.normal + (contact.an - contact.at * contact.wtn / contact.wtt)};
   }
   Acceleration rate = {contact.at, contact.an};
-  if (mode.friction == FrictionState::kSlipForward || mode.friction == FrictionState::kSlipBackward) {
-    const Acceleration& slope =
-        mode.friction == FrictionState::kSlipForward ? contact.forward_slope : contact.backward_slope;
+  if (const double sign = SlipSign(mode.friction); sign != 0.0) {
+    const Acceleration& slope = contact.SlipSlope(sign);
     rate.u += slope.u * forces.normal;
     rate.v += slope.v * forces.normal;
   } else {

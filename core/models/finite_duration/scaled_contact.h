@@ -41,6 +41,7 @@ struct ScaledContact {
 
   // Without forces, damping and a spring along t, u and v are linear in tau while a mode lasts.
   bool IsStraight() const { return at == 0.0 && an == 0.0 && !damped && !compliant; }
+  const Acceleration& SlipSlope(double direction) const { return direction < 0.0 ? backward_slope : forward_slope; }
 
   double Length() const { return speed * time; }
   double Force() const { return mass * speed / time; }

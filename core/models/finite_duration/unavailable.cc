@@ -11,10 +11,6 @@ Impact Solve(const Problem& /*problem*/, absl::FunctionRef<bool()> /*stopped*/) 
   StopOnBrokenInvariant("this build has no model of finite duration", __FILE__, __LINE__);
 }
 
-Impact Solve(const Problem& problem) {
-  return Solve(problem, [] { return false; });
-}
-
 double LibraryPower(double /*base*/, double /*exponent*/) {
   StopOnBrokenInvariant("this build has no model of finite duration", __FILE__, __LINE__);
 }
