@@ -33,6 +33,11 @@ double ChangeOfVelocity(const ScaledContact& contact, const Path& path, double s
                            std::fabs(backward_v), contact.stick_slope});
 }
 
+// Returns how far the work of restitution on a straight path is from what it has to return.
+double LackingWork(const ScaledContact& contact, const Path& path) {
+  return std::fabs(path.straight_other.normal + Square(contact.eta) * path.straight_loading.normal);
+}
+
 // Without forces, damping and springs along t, u and v are linear in tau while a mode lasts, and the integration keeps
 // that to rounding. Then it can err in one thing alone, the work that restitution returns, and how much is lacking
 // there follows from the velocities themselves.
@@ -41,10 +46,7 @@ double ErrorOfStraightPath(const ScaledContact& contact, const Path& path) {
   const Motion& end = path.end;
   const double terms = std::fabs(contact.u0) + 1.0 + std::fabs(end[kU]) + end[kV];
   double error = path.cut_off[kU] + path.cut_off[kV] + kRounding * terms;
-  if (end[kV] > 0.0) {
-    const double lacking = std::fabs(path.straight_other.normal + Square(contact.eta) * path.straight_loading.normal);
-    error += kSafety * ChangeOfVelocity(contact, path, lacking / end[kV]);
-  }
+  if (end[kV] > 0.0) error += kSafety * ChangeOfVelocity(contact, path, LackingWork(contact, path) / end[kV]);
   return error / std::max(1.0, std::fabs(contact.u0));
 }
 
@@ -127,8 +129,7 @@ ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact
   if (contact.IsStraight()) {
     normal = impulses.tau + velocity * middle[kNormal] + sums;
     // Without restitution nothing is returned, whatever is known of compression.
-    const double lacking = std::fabs(path.straight_other.normal + eta2 * path.straight_loading.normal);
-    returned = (eta2 > 0.0 ? eta2 * normal : 0.0) + lacking + sums;
+    returned = (eta2 > 0.0 ? eta2 * normal : 0.0) + LackingWork(contact, path) + sums;
     tangential = middle_energy + normal + sums;
     tangential_returned = energy + middle_energy + returned + sums;
   } else {
