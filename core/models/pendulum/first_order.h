@@ -16,6 +16,7 @@
 
 #include "core/models/impact_errors.h"
 #include "core/models/pendulum/nearly_vertical_forms.h"
+#include "core/models/pendulum/parts.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/relative_errors.h"
 #include "core/models/restitution_law.h"
@@ -32,7 +33,7 @@ inline constexpr double kLargestX = 0.5;
 
 // The quantities from which every output is computed.
 struct Approximation {
-  double x, one_minus_x;
+  double x;
   double newton, poisson, energetic, tangential;  // tangential: mu_hat/(mu sgn b)
   double tau0;
   double omega_plus;
@@ -76,7 +77,6 @@ inline Approximation Approximate(const Problem& problem) {
   // The larger of a |omega-| and x |b| |omega-|, over (1 + x) V.
   const double share = std::max(problem.a, x * size) / (std::max(problem.a, size) * one_plus_x);
   return {.x = x,
-          .one_minus_x = 1.0 - x,
           .newton = forms.newton.value,
           .poisson = kappa,
           .energetic = forms.energetic.value,
@@ -87,18 +87,13 @@ inline Approximation Approximate(const Problem& problem) {
                      .impulse = share * (kEnlarged * forms.poisson.error + 12.0 * kEps * (1.0 + kappa))}};
 }
 
-// mu with the sign of b; 0 if b = 0.
-inline double SignedFriction(const Problem& problem) {
-  return problem.b == 0.0 ? 0.0 : std::copysign(problem.mu, problem.b);
-}
-
 // Computes one output.
 inline double Value(const Problem& problem, const Approximation& of, Output output) {
-  const auto& [x, one_minus_x, newton, poisson, energetic, tangential, tau0, omega_plus, errors] = of;
+  const auto& [x, newton, poisson, energetic, tangential, tau0, omega_plus, errors] = of;
   const double mu = SignedFriction(problem);
   const double omega = problem.omega_minus;
   const double normal_compression = 0.5 * problem.a * tau0 * omega;
-  const double normal_restitution = 0.5 * problem.inertia * omega_plus * omega_plus / one_minus_x;
+  const double normal_restitution = 0.5 * problem.inertia * omega_plus * omega_plus / (1.0 - x);
   switch (output) {
     case Output::kNewton:
       return newton;
@@ -152,9 +147,7 @@ Impact Solve(const Problem& problem);
 ImpactErrors NumberErrorsOf(const Problem& problem, const Impact& impact);
 
 // The regime is kRebound, or kFrictionless if mu = 0 or b = 0.
-inline Regime RegimeOf(const Problem& problem) {
-  return SignedFriction(problem) == 0.0 ? Regime::kFrictionless : Regime::kRebound;
-}
+inline Regime RegimeOf(const Problem& problem) { return pendulum::RegimeOf(problem, /*locked=*/false); }
 
 // The state at normal impulse tau in [0, tau1], by [7], [12] and [48] with tau0, tau1 and omega+ of the model.
 // Accuracy: 4 ulp of |omega-| or of mu tau0.

@@ -17,6 +17,13 @@ struct Counts {
   double kappa, one_minus_kappa;  // f1 errs by these times kappa and |1 - kappa|, over mu tau0
 };
 
+// A coefficient that the law states is exact.
+void SetStatedCoefficient(RestitutionLaw law, ImpactErrors& errors) {
+  if (law == RestitutionLaw::kNewton) errors.newton = 0.0;
+  if (law == RestitutionLaw::kPoisson) errors.poisson = 0.0;
+  if (law == RestitutionLaw::kEnergetic) errors.energetic = 0.0;
+}
+
 // Errors of a number below the range of products, over the scale of its kind.
 ImpactErrors ErrorsBy(const Counts& counts, double unit, double unseen, double energy, const Problem& problem,
                       const Impact& impact) {
@@ -57,20 +64,9 @@ ImpactErrors ErrorsBy(const Counts& counts, double unit, double unseen, double e
       KnownError(of(counts.work_restitution, Output::kWorkTangentialRestitution, returned * (work_n + work_t)));
   errors.energy_change = KnownError(energy * returned * (work_n + work_t) +
                                     unit * 4.0 * std::fabs(impact[Output::kEnergyChange]) + kSmallest);
+  SetStatedCoefficient(problem.law, errors);
   if (impact.regime == Regime::kLocked || problem.coefficient == 0.0) {
     errors.newton = errors.poisson = errors.energetic = 0.0;
-    return errors;
-  }
-  switch (problem.law) {
-    case RestitutionLaw::kNewton:
-      errors.newton = 0.0;
-      break;
-    case RestitutionLaw::kPoisson:
-      errors.poisson = 0.0;
-      break;
-    case RestitutionLaw::kEnergetic:
-      errors.energetic = 0.0;
-      break;
   }
   return errors;
 }
@@ -98,7 +94,7 @@ namespace ricochet::first_order {
 ImpactErrors NumberErrorsOf(const Problem& problem, const Impact& impact) {
   constexpr double kEps = 0x1p-53;
   constexpr double kEnlarged = 1.0 + 0x1p-40;
-  constexpr double kSmallest = 0x1p-1074;
+  using pendulum::kSmallest;
   if (!AreModerate({problem.inertia, problem.a, problem.b, problem.omega_minus, problem.mu, problem.coefficient},
                    0x1p100)) {
     return {};
@@ -130,11 +126,8 @@ ImpactErrors NumberErrorsOf(const Problem& problem, const Impact& impact) {
   errors.work_tangential_restitution =
       x * of_square / (1.0 - x) * kEnlarged + of(36.0, Output::kWorkTangentialRestitution);
   errors.energy_change = of_square + 32.0 * kEps * energy * (1.0 + kappa_hat * kappa_hat) + kSmallest;
-  if (mu == 0.0) errors.tangential = errors.f = 0.0;
-  if (mu == 0.0) errors.newton = errors.poisson = errors.energetic = 0.0;
-  if (problem.law == RestitutionLaw::kNewton) errors.newton = 0.0;
-  if (problem.law == RestitutionLaw::kPoisson) errors.poisson = 0.0;
-  if (problem.law == RestitutionLaw::kEnergetic) errors.energetic = 0.0;
+  pendulum::SetStatedCoefficient(problem.law, errors);
+  if (mu == 0.0) errors.newton = errors.poisson = errors.energetic = errors.tangential = errors.f = 0.0;
   return errors;
 }
 

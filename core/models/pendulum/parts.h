@@ -59,17 +59,17 @@ inline unsigned PartsOf(Output output) {
 }
 
 // True if friction does not couple the tangential to the normal direction.
-inline bool Smooth(const Problem& problem) { return problem.mu == 0.0 || problem.b == 0.0; }
+inline bool IsSmooth(const Problem& problem) { return problem.mu == 0.0 || problem.b == 0.0; }
 
 // mu with the sign of b; 0 if the directions are not coupled.
 inline double SignedFriction(const Problem& problem) {
-  return Smooth(problem) ? 0.0 : std::copysign(problem.mu, problem.b);
+  return IsSmooth(problem) ? 0.0 : std::copysign(problem.mu, problem.b);
 }
 
 // The regime of a problem that does not separate.
 inline Regime RegimeOf(const Problem& problem, bool locked) {
   if (locked) return Regime::kLocked;
-  return Smooth(problem) ? Regime::kFrictionless : Regime::kRebound;
+  return IsSmooth(problem) ? Regime::kFrictionless : Regime::kRebound;
 }
 
 }  // namespace ricochet::pendulum
