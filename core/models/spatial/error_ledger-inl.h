@@ -209,7 +209,7 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
 
 template <typename T>
 void ErrorLedger<T>::AddStraightSlip(const Direction<T>& e, T length, T slip, T next_slip, T v) {
-  sum_.Carry(problem_, {.length = length, .m = e, .slip = {slip, next_slip}});
+  sum_.Carry(problem_, {.length = length, .m = e, .first_slip = slip, .last_slip = next_slip});
   u_rounding_ += kEpsilon<T> * (problem_.rate * length * problem_.graze + T{0.5} * slip);
   sum_.Stray(problem_, length, std::min(slip, next_slip));
   sum_.AddRounding(problem_, T{2} * problem_.steepest * length, v, length);
@@ -236,8 +236,7 @@ void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
   // The contact is held by what u has lost, so that the friction impulse has the rounding of u.
   const T root = problem_.smallest_root;
   if (error > T{0}) f_rounding_ += (sum_.slip_rounding + u_rounding_ / root) / root;
-  if (locks_) ForgetSlip();
-  if (locks_) return;
+  if (locks_) return ForgetSlip();
   // A stop at the wrong impulse leaves in v the difference of the two slopes times the error of that impulse.
   const Slopes<T>& before = slip_slopes_;
   const T slowing = Size(before.u1, before.u2);

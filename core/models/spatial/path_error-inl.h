@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
-// A stretch of slip: what it takes away from a lack df of the friction impulse.
+// What a stretch of slip takes away from a lack df of the friction impulse.
 template <typename T>
 struct Decay {
   T a1{0}, a2{0};  // e', at any length
@@ -27,22 +27,26 @@ struct Decay {
   T length{0};     // of the stretch, in normal impulse
 };
 
-// The sizes of slip at both ends of a stretch.
+// A stretch of slip: its length in normal impulse, its mean direction at any length, and the sizes of slip at its ends.
 template <typename T>
-struct SlipSizes {
-  T first, last;
+struct Stretch {
+  T length;
+  Direction<T> m;
+  T first_slip, last_slip;
 };
 
-// The decay over a stretch of slip along a direction of any length m = (m1, m2). `error` is that of slip: where it is
-// as large as slip, it decays no faster than it would at a slip of its own size.
+// The decay over a stretch of slip. `error` is that of slip: where it is as large as slip, it decays no faster than it
+// would at a slip of its own size.
 template <typename T>
-HWY_INLINE Decay<T> DecayOver(const Matrix<T>& w, T mu, T m1, T m2, T length, const SlipSizes<T>& slip, T error) {
+HWY_INLINE Decay<T> DecayOver(const Matrix<T>& w, T mu, const Stretch<T>& stretch, T error) {
   const T zero{0};
+  const T m1 = stretch.m.c;
+  const T m2 = stretch.m.s;
   const T square = m1 * m1 + m2 * m2;
   const T mobility = m2 * m2 * w.w11 + m1 * m1 * w.w22 - T{2} * m1 * m2 * w.w12;
-  const T first = slip.first + error;
-  const T last = slip.last + error;
-  const T rate = mu * mobility * length / square;
+  const T first = stretch.first_slip + error;
+  const T last = stretch.last_slip + error;
+  const T rate = mu * mobility * stretch.length / square;
   // Slip changes linearly. The mean of 1/s is one over the logarithmic mean of its ends, which (2 G + A)/3 exceeds by
   // little, with the geometric mean G and the arithmetic mean A; 1/(1 + z + z^2/2) stands for exp(-z).
   const T z = Min(T{6} * rate / (T{4} * SquareRoot(first * last) + (first + last)), T{1e9});
@@ -55,7 +59,7 @@ HWY_INLINE Decay<T> DecayOver(const Matrix<T>& w, T mu, T m1, T m2, T length, co
           .mobility = Select(first + last > zero, mobility, zero),
           .gone = T{1} - left,
           .mean_gone = mean_gone,
-          .length = length};
+          .length = stretch.length};
 }
 
 template <typename T>

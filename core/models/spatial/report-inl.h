@@ -151,7 +151,10 @@ Impact MakeImpact(const ScaledProblem<T>& problem, const Path<T>& path, const En
   impact.energetic_excess =
       internal::Share(-(restitution_work + compression_work), compression_work) / (1.0 + impact.energetic);
   // A path without an end has no coefficients of restitution.
-  if (!path.ended) impact.newton = impact.poisson = impact.energetic = 0.0, impact.energetic_excess = -1.0;
+  if (!path.ended) {
+    impact.newton = impact.poisson = impact.energetic = 0.0;
+    impact.energetic_excess = -1.0;
+  }
   impact.tangential = internal::Share(std::sqrt(f1 * f1 + f2 * f2), tau);
   const T energy_error = internal::EnergyError(problem, path, errors);
   impact.energy_limit_broken = friction_change + problem.graze * normal_change > energy_error;

@@ -11,7 +11,6 @@
 #define RICOCHET_CORE_MODELS_SPATIAL_SOLVER_INL_H_
 #endif
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>

@@ -280,7 +280,8 @@ HWY_INLINE StepEnd<T> TakeStep(const Contact<T>& contact, const PhaseGoal<T>& go
   const Direction<T> e = {state.u1 / slip, state.u2 / slip};
   const Stretch<T> stretch = {.length = state.tau - goal.from.tau,
                               .m = {slip_frame.frame.c + e.c, slip_frame.frame.s + e.s},
-                              .slip = {slip_frame.slip, slip}};
+                              .first_slip = slip_frame.slip,
+                              .last_slip = slip};
   StepErrors<T> sum = errors;
   sum.AddStep(contact, step.ErrorAt(xi, state, e), stretch, state.v);
   return {.state = state,

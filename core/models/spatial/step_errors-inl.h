@@ -25,23 +25,15 @@ struct StepError {
   PathError<T> known, remainder;
 };
 
-// A stretch of slip: its length in normal impulse, its mean direction at any length, and the sizes of slip at its ends.
-template <typename T>
-struct Stretch {
-  T length;
-  Direction<T> m;
-  SlipSizes<T> slip;
-};
-
 template <typename T>
 struct StepErrors {
   // Adds a step with v at its end.
   HWY_INLINE void AddStep(const Contact<T>& contact, const StepError<T>& error, const Stretch<T>& stretch, T v) {
     Carry(contact, stretch);
     AddKnown(contact.w, error);
-    CountByNorm(contact.w, stretch.slip.last < T{4} * KnownSlipError(contact.w));
-    slip_rounding += SlipRounding(contact, stretch.slip.first);
-    Stray(contact, stretch.length, Min(stretch.slip.first, stretch.slip.last));
+    CountByNorm(contact.w, stretch.last_slip < T{4} * KnownSlipError(contact.w));
+    slip_rounding += SlipRounding(contact, stretch.first_slip);
+    Stray(contact, stretch.length, Min(stretch.first_slip, stretch.last_slip));
     AddRounding(contact, contact.steepest * stretch.length, v, stretch.length);
   }
 
@@ -50,8 +42,7 @@ struct StepErrors {
     const T zero{0};
     const auto is_known = Not(Both(known.f1 == zero, known.f2 == zero));
     if (InNoLane(is_known)) return;
-    const Decay<T> decay = DecayOver(contact.w, contact.mu, stretch.m.c, stretch.m.s, stretch.length, stretch.slip,
-                                     KnownSlipError(contact.w));
+    const Decay<T> decay = DecayOver(contact.w, contact.mu, stretch, KnownSlipError(contact.w));
     PathError<T> of_known = known;
     PathError<T> of_doubtful = doubtful;
     of_known.CarryOver(contact.w, decay);
