@@ -54,33 +54,23 @@ struct Answer {
   V energy_change;
 };
 
-// The numbers of a problem that no model of a straight path does without.
-template <typename V>
-struct Motion {
-  V u0, v0, coefficient;
-};
-
-template <typename V>
-HWY_INLINE Motion<V> LoadMotion(const PlanarProblemColumns& problems, size_t i) {
-  return {Lanes<V>::Load(&problems.u0[i]), Lanes<V>::Load(&problems.v0[i]), Lanes<V>::Load(&problems.coefficient[i])};
-}
-
 // Sets what does not depend on the friction impulse, operation by operation as core/models/sliding/sliding.cc does.
 template <typename V>
-HWY_INLINE Answer<V> MakeAnswer(const Motion<V>& in, V u_slope, V v_slope) {
+HWY_INLINE Answer<V> MakeAnswer(const PlanarProblemColumns& problems, size_t i, V u_slope, V v_slope) {
   const V zero = Lanes<V>::Fill(0.0);
   const V half = Lanes<V>::Fill(0.5);
-  const V c = in.coefficient;
-  const V speed = zero - in.v0;
+  const V v0 = Lanes<V>::Load(&problems.v0[i]);
+  const V c = Lanes<V>::Load(&problems.coefficient[i]);
+  const V speed = zero - v0;
   Answer<V> x;
   x.newton = x.poisson = x.energetic = c;
   x.tau_compression = speed / v_slope;
   x.tau1 = Fma(c, x.tau_compression, x.tau_compression);
-  x.u1 = Fma(u_slope, x.tau1, in.u0) + zero;
+  x.u1 = Fma(u_slope, x.tau1, Lanes<V>::Load(&problems.u0[i])) + zero;
   x.v1 = c * speed;
-  x.work_normal_compression = half * x.tau_compression * in.v0;
+  x.work_normal_compression = half * x.tau_compression * v0;
   x.work_normal_restitution = zero - c * c * x.work_normal_compression;
-  x.energy_change = half * x.tau1 * ((Lanes<V>::Fill(1.0) - c) * in.v0) + zero;
+  x.energy_change = half * x.tau1 * ((Lanes<V>::Fill(1.0) - c) * v0) + zero;
   x.tangential = x.f1 = x.work_tangential_compression = x.work_tangential_restitution = zero;
   return x;
 }
@@ -100,20 +90,20 @@ HWY_INLINE void SolveSliding(const Job& job, size_t i) {
   const PlanarProblemColumns& problems = job.problems;
   const V zero = Lanes<V>::Fill(0.0);
   const V half = Lanes<V>::Fill(0.5);
-  const Motion<V> in = LoadMotion<V>(problems, i);
+  const V u0 = Lanes<V>::Load(&problems.u0[i]);
   const V wtn = Lanes<V>::Load(&problems.wtn[i]);
-  const V f = CopySign(Lanes<V>::Load(&problems.mu[i]), zero - in.u0);
+  const V f = CopySign(Lanes<V>::Load(&problems.mu[i]), zero - u0);
   const V u_slope = Fma(f, Lanes<V>::Load(&problems.wtt[i]), wtn);
   const V v_slope = Fma(f, wtn, Lanes<V>::Load(&problems.wnn[i]));
-  Answer<V> x = MakeAnswer(in, u_slope, v_slope);
-  const V u_middle = Fma(u_slope, x.tau_compression, in.u0) + zero;
+  Answer<V> x = MakeAnswer(problems, i, u_slope, v_slope);
+  const V u_middle = Fma(u_slope, x.tau_compression, u0) + zero;
   const V f_compression = f * x.tau_compression;
-  const V f_restitution = in.coefficient * f_compression;
+  const V f_restitution = Lanes<V>::Load(&problems.coefficient[i]) * f_compression;
   x.f1 = f * x.tau1;
   x.tangential = f;
-  x.work_tangential_compression = half * (f_compression * (in.u0 + u_middle)) + zero;
+  x.work_tangential_compression = half * (f_compression * (u0 + u_middle)) + zero;
   x.work_tangential_restitution = half * (f_restitution * (u_middle + x.u1)) + zero;
-  x.energy_change = x.energy_change + half * (x.f1 * (in.u0 + x.u1));
+  x.energy_change = x.energy_change + half * (x.f1 * (u0 + x.u1));
   Store(job, i, x);
   if (job.inadmissible == nullptr) return;
   const V friction_gives = x.work_tangential_compression + x.work_tangential_restitution;
@@ -126,8 +116,7 @@ HWY_INLINE void SolveSliding(const Job& job, size_t i) {
 template <typename V>
 HWY_INLINE void SolveSmooth(const Job& job, size_t i) {
   const PlanarProblemColumns& problems = job.problems;
-  Store(job, i,
-        MakeAnswer(LoadMotion<V>(problems, i), Lanes<V>::Load(&problems.wtn[i]), Lanes<V>::Load(&problems.wnn[i])));
+  Store(job, i, MakeAnswer(problems, i, Lanes<V>::Load(&problems.wtn[i]), Lanes<V>::Load(&problems.wnn[i])));
 }
 
 void SolveAllSliding(const Job& job) {

@@ -175,8 +175,7 @@ RelativeErrors ErrorsOf(const Problem<kTangential>& problem) {
   }
   const double normal = (3.0 + conditioning) * problem.Wnn();
   const double tangential = (kDirectional + 4.0 + conditioning) * problem.Wtt() * problem.mu;
-  const double scale = ScaleOf(problem);
-  const double unit = kRounding / scale;
+  const double unit = kRounding / ScaleOf(problem);
   const double unseen = Unseen(problem);
   return {.velocity = unit * velocity + unseen, .impulse = unit * end.tau1 * std::max(normal, tangential) + unseen};
 }
@@ -186,8 +185,7 @@ RelativeErrors FrictionlessErrorsOf(const Problem<kTangential>& problem) {
   if (!IsModerateWithoutFriction(problem)) return kNoBound;
   const End<kTangential> end = EndOf(problem, problem.Wtn(), problem.Wnn());
   const double drift = Largest(problem.Wtn()) * end.tau1;
-  const double scale = ScaleOf(problem);
-  const double unit = kRounding / scale;
+  const double unit = kRounding / ScaleOf(problem);
   const double unseen = Unseen(problem);
   return {.velocity = unit * std::max(end.v1, Largest(end.u1) + 2.0 * drift) + unseen,
           .impulse = unit * 2.0 * problem.Wnn() * end.tau1 + unseen};
