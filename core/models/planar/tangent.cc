@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "core/numerics/moderate.h"
 // Highway prescribes the order of these includes.
 // clang-format off
 #include "hwy/foreach_target.h"
@@ -56,7 +56,6 @@ using ricochet::HWY_NAMESPACE::Codes;
 using ricochet::HWY_NAMESPACE::DoubleDouble;
 using ricochet::HWY_NAMESPACE::Dual;
 using ricochet::HWY_NAMESPACE::Lanes;
-using ricochet::HWY_NAMESPACE::Plain;
 using ricochet::HWY_NAMESPACE::Vector;
 
 // V is what N computes with: the problems of its lanes are all[0], all[1], ...
@@ -185,12 +184,7 @@ HWY_EXPORT(CountTangentLanes);
 
 // True if no product of a few of the numbers leaves the range of doubles.
 bool IsModerate(const Along& x) {
-  const auto fits = [](double number) {
-    return number == 0.0 || (std::fabs(number) >= 0x1p-60 && std::fabs(number) <= 0x1p60);
-  };
-  const std::array<double, 8> problem = AsArray(x.problem);
-  const std::array<double, 8> direction = AsArray(x.direction);
-  return std::all_of(problem.begin(), problem.end(), fits) && std::all_of(direction.begin(), direction.end(), fits);
+  return AreModerate(AsArray(x.problem), 0x1p60) && AreModerate(AsArray(x.direction), 0x1p60);
 }
 
 }  // namespace
