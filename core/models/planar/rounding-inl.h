@@ -161,8 +161,8 @@ HWY_INLINE EndErrors<M> OnePieceErrors(const Course<N>& course) {
   errors.tau = Times(2.0, tau_c) + Times(in_step, tau - tau_c) + tau;
   errors.f = Abs(Coarse(course.path.first.f)) * (errors.tau + tau);
   errors.v = Times(in_v1, v1);
-  const M u_errors = Times(2.0, Abs(u_c - Coarse(course.in.u0))) + Times(3.0, Abs(u_c)) +
-                     Times(in_step + 2.0, Abs(u1 - u_c)) + Abs(u1);
+  errors.u_compression = UCompressionError(course);
+  const M u_errors = errors.u_compression + Times(in_step + 2.0, Abs(u1 - u_c)) + Abs(u1);
   errors.u = Select(course.in.u_follows_v, Zero<M>(), u_errors);
   // At rank one u' has two roundings more.
   const MaskOf<N> has_more = Both(course.in.rank_one, Not(course.in.u_follows_v));
@@ -171,7 +171,6 @@ HWY_INLINE EndErrors<M> OnePieceErrors(const Course<N>& course) {
   errors.tau_compression = Times(2.0, tau_c);
   errors.before = Times(in_step, tau - tau_c);
   errors.stuck = errors.after = Zero<M>();
-  errors.u_compression = UCompressionError(course);
   errors.decisive = errors.decisive_error = Zero<M>();
   const MaskOf<M> may_stop = Both(course.path.stops, Not(course.in.u_follows_v));
   if (!InNoLane(may_stop)) {
