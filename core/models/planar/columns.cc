@@ -28,7 +28,7 @@ namespace ricochet::planar {
 // Problems are solved in blocks of this many.
 inline constexpr size_t kBlock = 64;
 
-// The numbers of a problem.
+// The numbers of a problem, in the order of `Inputs`.
 enum : size_t { kWtt, kWtn, kWnn, kU0, kV0, kMu, kMuStatic, kCoefficient, kNumbers };
 
 // The problems of a call, and the places of their results.
@@ -77,18 +77,7 @@ using Mask = decltype(V() < V());
 
 template <typename N>
 HWY_INLINE Inputs<N> LoadInputs(const Job& job, size_t i) {
-  const auto load = [&](size_t k) HWY_ATTR { return N::Exactly(VLanes::Load(job.numbers[k] + i)); };
-  Inputs<N> in;
-  in.wtt = load(kWtt);
-  in.wtn = load(kWtn);
-  in.wnn = load(kWnn);
-  in.u0 = load(kU0);
-  in.v0 = load(kV0);
-  in.mu = load(kMu);
-  in.mu_static = load(kMuStatic);
-  in.coefficient = load(kCoefficient);
-  CompleteInputs(in);
-  return in;
+  return InputsFrom<N>([&](size_t k) HWY_ATTR { return N::Exactly(VLanes::Load(job.numbers[k] + i)); });
 }
 
 // The numbers of a vector of problems, their bound, and where they are proved.

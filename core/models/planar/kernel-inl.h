@@ -17,6 +17,9 @@
 #define RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_
 #endif
 
+#include <array>
+#include <cstddef>
+
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "core/numerics/double_double-inl.h"
@@ -157,29 +160,35 @@ HWY_INLINE TwiceWork<N> SelectWork(const MaskOf<N>& condition, const TwiceWork<N
   return {Select(condition, yes.normal, no.normal), Select(condition, yes.tangential, no.tangential)};
 }
 
-// Sets what follows from the numbers stated.
-template <typename N>
-HWY_INLINE void CompleteInputs(Inputs<N>& in) {
-  in.stated_u0 = in.u0;
+// The inputs whose k-th number, in the order of `Inputs`, is number(k).
+template <typename N, typename Number>
+HWY_INLINE Inputs<N> InputsFrom(const Number& number) {
+  Inputs<N> in;
+  in.wtt = number(0);
+  in.wtn = number(1);
+  in.wnn = number(2);
+  in.u0 = in.stated_u0 = number(3);
+  in.v0 = number(4);
+  in.mu = number(5);
+  in.mu_static = number(6);
+  in.coefficient = number(7);
   const N square = in.wtt * in.wnn;
   in.det = DifferenceOfProducts(in.wtt, in.wnn, in.wtn, in.wtn);
   in.rank_one = Not(IsPositive(Abs(in.det) - N::Constant(kRankTolerance) * square));
   in.u_follows_v = in.rank_one;
+  return in;
+}
+
+// The numbers of a problem or of a direction of it (core/models/planar/tangent.h), in the order of `Inputs`.
+template <typename Numbers>
+HWY_INLINE std::array<double, 8> AsArray(const Numbers& x) {
+  return {x.w.tt, x.w.tn, x.w.nn, x.u0, x.v0, x.mu, x.mu_static, x.coefficient};
 }
 
 template <typename N>
 HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
-  Inputs<N> in;
-  in.wtt = N::Exactly(problem.w.tt);
-  in.wtn = N::Exactly(problem.w.tn);
-  in.wnn = N::Exactly(problem.w.nn);
-  in.u0 = N::Exactly(problem.u0);
-  in.v0 = N::Exactly(problem.v0);
-  in.mu = N::Exactly(problem.mu);
-  in.mu_static = N::Exactly(problem.mu_static);
-  in.coefficient = N::Exactly(problem.coefficient);
-  CompleteInputs(in);
-  return in;
+  const std::array<double, 8> numbers = AsArray(problem);
+  return InputsFrom<N>([&numbers](size_t k) HWY_ATTR { return N::Exactly(numbers[k]); });
 }
 
 // The slopes of slip with u < 0 (`backwards`) or u > 0.

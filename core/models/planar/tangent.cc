@@ -26,11 +26,6 @@ namespace ricochet::planar {
 // No vector of any target has more lanes.
 inline constexpr size_t kMostLanes = 32;
 
-template <typename Numbers>
-std::array<double, 8> AsArray(const Numbers& x) {
-  return {x.w.tt, x.w.tn, x.w.nn, x.u0, x.v0, x.mu, x.mu_static, x.coefficient};
-}
-
 // A code is the number of a regime with the flags that hold.
 inline constexpr uint64_t kRegimes = 0xff;
 enum Flag : uint64_t {
@@ -70,20 +65,9 @@ HWY_INLINE Inputs<Dual<N>> InputsOf(Along* const* all) {
       rates[k][lane] = rate[k];
     }
   }
-  const auto number = [&](size_t k) HWY_ATTR {
+  return InputsFrom<Dual<N>>([&](size_t k) HWY_ATTR {
     return Dual<N>(N::Exactly(Lanes<V>::Load(values[k].data())), N::Exactly(Lanes<V>::Load(rates[k].data())));
-  };
-  Inputs<Dual<N>> in;
-  in.wtt = number(0);
-  in.wtn = number(1);
-  in.wnn = number(2);
-  in.u0 = number(3);
-  in.v0 = number(4);
-  in.mu = number(5);
-  in.mu_static = number(6);
-  in.coefficient = number(7);
-  CompleteInputs(in);
-  return in;
+  });
 }
 
 // True where u0 Wnn - v0 Wtn is 0 and does not stay so, beyond the rounding of a direction in doubles.
@@ -184,6 +168,7 @@ HWY_EXPORT(CountTangentLanes);
 
 // True if no product of a few of the numbers leaves the range of doubles.
 bool IsModerate(const Along& x) {
+  using HWY_NAMESPACE::AsArray;
   return AreModerate(AsArray(x.problem), 0x1p60) && AreModerate(AsArray(x.direction), 0x1p60);
 }
 
