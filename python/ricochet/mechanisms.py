@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -32,20 +32,21 @@ class AtContact(NamedTuple):
     """The generalised velocities after the impact."""
     impulse_n_s: "Numbers"
     """The impulse on the mechanism in world axes, N s."""
-    answer: Union[Record, Table]
+    answer: Any
     """The outcome of a single state, or the table of a batch."""
 
 
 _NO_DIRECTION = Violation("normal", "has no direction: must be finite and not 0")
 # The entries of M across the diagonal may differ by so much of the diagonal: products of matrices round so.
 _ROUNDING = 1e-12
+_ROUNDING_OF_FLOAT32 = 1e-5
 
 
 def _has_direction(normal: Numbers) -> bool:
     return bool(0 < np.abs(normal).max() < np.inf)
 
 
-def _without_rounding(mass: Numbers) -> Numbers:
+def _without_rounding(mass: Numbers, rounding: float) -> Numbers:
     """Returns (M + M^T)/2 where M is symmetric but for rounding; other matrices stay as they are, to be refused."""
     across = np.swapaxes(mass, -1, -2)
     if np.array_equal(mass, across):
@@ -53,7 +54,7 @@ def _without_rounding(mass: Numbers) -> Numbers:
     roots = np.sqrt(np.abs(np.diagonal(mass, axis1=-2, axis2=-1)))
     with np.errstate(invalid="ignore"):  # Infinite entries are refused as they are.
         mean = 0.5 * mass + 0.5 * across  # The sum itself may overflow.
-        is_rounding = np.abs(mass - across) <= _ROUNDING * roots[..., :, None] * roots[..., None, :]
+        is_rounding = np.abs(mass - across) <= rounding * roots[..., :, None] * roots[..., None, :]
     every: Numbers = np.where(is_rounding.all(axis=(-2, -1), keepdims=True), mean, mass)
     return every
 
@@ -80,16 +81,19 @@ class States:
         self.is_batch = bool(lead)
         if not wrong and not self.is_batch and not _has_direction(given["normal"]):
             wrong.append(_NO_DIRECTION)
-        listed = held if is_list(held) else [held]
+        listed = list(held) if is_list(held) else [held]
         if any(isinstance(entry, (bool, np.bool_)) for entry in listed):
             rule = "has truth values: must have the numbers of coordinates, from 0; np.flatnonzero makes them of a mask"
             refuse("held", rule)
         self.held = [int(scalar("int32", entry, f"held[{i}]")) for i, entry in enumerate(listed)]
         wrong += [Violation(f"held[{i}]", f"= {entry}: must be in [0, {n})")
                   for i, entry in enumerate(self.held) if not 0 <= entry < n]
+        wrong += [Violation(f"held[{i}]", f"= {entry}: must be named once")
+                  for i, entry in enumerate(self.held) if entry in self.held[:i]]
         if wrong:
             raise InvalidRequest.of(wrong)
-        given["M"] = _without_rounding(given["M"])
+        is_float32 = str(getattr(M, "dtype", "")).endswith("float32")
+        given["M"] = _without_rounding(given["M"], _ROUNDING_OF_FLOAT32 if is_float32 else _ROUNDING)
         count = several.pop() if several else (1,)
         self.count = count[0]
         arrays = {name: np.ascontiguousarray(np.broadcast_to(array, count + shapes[name]))

@@ -169,6 +169,7 @@ class SingleStates(Case):
         with self.assertRaisesRegex(ricochet.InvalidRequest, r"shapes M \(4, 3, 3\), J \(5, 3, 3\), qdot \(3,\)"):
             call(M=np.ones((4, 3, 3)), J=np.ones((5, 3, 3)))
         self.refused(lambda: call(held=[3]), "held[0]")
+        self.refused(lambda: call(held=[1, 0, 1]), "held[2]")
         self.refused(lambda: call(held=None), "held[0]")
         self.refused(lambda: call(friction=np.ma.masked), "friction.kinetic_coefficient")
         self.refused(lambda: call(M=np.diag([1, 1, -1.0])), "mechanism.mass_matrix[8]")
@@ -202,6 +203,25 @@ class Batches(Case):
             np.testing.assert_allclose(after[b], one.rates_after, rtol=1e-10, atol=1e-12)
             np.testing.assert_allclose(impulse[b], one.impulse_n_s, rtol=1e-10, atol=1e-12)
             self.assertEqual(table.codes["regime"][b], one.answer.regime)
+
+    def test_held_coordinates_may_come_from_any_iterable(self):
+        mass, jacobian, rates, normal = random_states(3, 5)
+        call = lambda held: ricochet.at_contact(  # noqa: E731
+            mass[0], jacobian[0], rates[0], normal[0], friction=0.3, energetic=0.7, held=held).rates_after
+        listed = call([1, 3])
+        for held in (iter([1, 3]), (i for i in (1, 3)), map(int, "13"), {1, 3}, np.array([1, 3])):
+            np.testing.assert_array_equal(call(held), listed)
+
+    def test_a_product_in_float32_is_symmetric_but_for_its_rounding(self):
+        mass, jacobian, rates, normal = random_states(20, 5)
+        turn = np.linalg.qr(np.random.default_rng(5).normal(size=(5, 5)))[0].astype(np.float32)
+        product = turn.T @ mass.astype(np.float32) @ turn
+        self.assertFalse(np.array_equal(product, np.swapaxes(product, 1, 2)))
+        after = ricochet.at_contact(product, jacobian, rates, normal, friction=0.3, energetic=0.7)
+        self.assertTrue(np.isfinite(after.rates_after).all())
+        with self.assertRaises(ricochet.InvalidRequest):
+            ricochet.at_contact(
+                product[0].astype(float), jacobian[0], rates[0], normal[0], friction=0.3, energetic=0.7)
 
     def test_held_coordinates_leave_the_mechanism(self):
         mass, jacobian, rates, normal = random_states(50, 6)
