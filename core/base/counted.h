@@ -7,13 +7,16 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 
 namespace ricochet {
 
-// Returns "1 point" or "3 points" for the noun "point".
+// Returns "1 point" or "3 points" for the noun "point", and "1 entry" or "3 entries" for "entry".
 template <typename Integer>
 std::string Counted(Integer count, absl::string_view noun) {
-  return absl::StrCat(count, " ", noun, count == 1 ? "" : "s");
+  if (count == 1) return absl::StrCat(count, " ", noun);
+  const char* const ending = absl::ConsumeSuffix(&noun, "y") ? "ies" : "s";
+  return absl::StrCat(count, " ", noun, ending);
 }
 
 }  // namespace ricochet

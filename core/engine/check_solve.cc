@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/answer/derivative_paths.h"
+#include "core/base/counted.h"
 #include "core/certified/certified.h"
 #include "core/plan/demand_fields.h"
 #include "core/plan/number_demand.h"
@@ -48,7 +49,7 @@ void CheckHistory(const SolveRequest& request, std::vector<Violation>& violation
   const int64_t intervals = request.history_intervals;
   CheckIntervals("history_intervals", intervals, violations);
   const char* const why_none = WhyNoHistory(request.scene);
-  const std::string entries = absl::StrCat("has ", count, count == 1 ? " entry" : " entries");
+  const std::string entries = absl::StrCat("has ", Counted(count, "entry"));
   if (count > 0 && why_none != nullptr) {
     violations.push_back(MakeViolation("history_at_n_s", entries, absl::StrCat("be empty ", why_none)));
   } else if (count > 0 && intervals != 0) {

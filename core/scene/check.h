@@ -13,6 +13,7 @@
 
 #include "absl/functional/function_ref.h"
 #include "absl/strings/str_cat.h"
+#include "core/base/counted.h"
 #include "core/contact/scene_contact.h"
 #include "core/scene/numbers.h"
 #include "ricochet/error.h"
@@ -25,8 +26,7 @@ inline bool AllFinite(const std::vector<double>& values) {
 
 // "has 2 entries: must have 1"
 inline Violation CountViolation(std::string field, size_t found, size_t wanted) {
-  return MakeViolation(std::move(field), absl::StrCat("has ", found, found == 1 ? " entry" : " entries"),
-                       absl::StrCat("have ", wanted));
+  return MakeViolation(std::move(field), absl::StrCat("has ", Counted(found, "entry")), absl::StrCat("have ", wanted));
 }
 
 class Check {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/counted.h"
 #include "core/base/decimal.h"
 #include "core/contact/mechanism.h"
 #include "core/scene/check.h"
@@ -24,17 +25,17 @@ std::string EntryOf(const char* field, size_t entry) { return absl::StrCat(field
 // Returns whether M, J and q' go together.
 bool CheckSizes(const Mechanism& mechanism, size_t contacts, Check& check) {
   const size_t n = mechanism.rates.size();
-  const auto entries = [](size_t count) { return absl::StrCat("has ", count, count == 1 ? " entry" : " entries"); };
   check.Require(n > 0, [] { return MakeViolation("mechanism.rates", "has 0 entries", "have at least one"); });
   const size_t mass = mechanism.mass_matrix.size();
   check.Require(mass == n * n, [&] {
-    return MakeViolation(kMass, entries(mass), absl::StrCat("have n x n = ", n * n, " for the ", n, " of rates"));
+    return MakeViolation(kMass, absl::StrCat("has ", Counted(mass, "entry")),
+                         absl::StrCat("have n x n = ", n * n, " for the ", n, " of rates"));
   });
   const size_t jacobian = mechanism.jacobian.size();
   const size_t row = contacts * n;
   check.Require(jacobian == 2 * row || jacobian == 3 * row, [&] {
     const std::string times = contacts == 1 ? " x n = " : absl::StrCat(" x ", contacts, " x n = ");
-    return MakeViolation(kJacobian, entries(jacobian),
+    return MakeViolation(kJacobian, absl::StrCat("has ", Counted(jacobian, "entry")),
                          absl::StrCat("have 2", times, 2 * row, " in a plane or 3", times, 3 * row,
                                       " in space, for the ", n, " of rates"));
   });

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/counted.h"
 #include "core/base/decimal.h"
 #include "core/contact/reduction.h"
 #include "core/contact/symmetric_matrix.h"
@@ -68,7 +69,7 @@ void CheckSystem(const ContactMatrix& matrix, const MultiContactScene& scene, Ch
   const size_t rows = matrix.velocity_m_s.size();
   const bool fits = contacts > 0 && (rows == 2 * contacts || rows == 3 * contacts);
   check.Require(contacts == 0 || fits, [&] {
-    return MakeViolation("contact_matrix.velocity_m_s", absl::StrCat("has ", rows, " entries"),
+    return MakeViolation("contact_matrix.velocity_m_s", absl::StrCat("has ", Counted(rows, "entry")),
                          absl::StrCat("have 2 or 3 for each of the contacts, ", 2 * contacts, " or ", 3 * contacts));
   });
   if (fits) check.Length("contact_matrix.w_per_kg", matrix.w_per_kg.size(), rows * rows);
@@ -81,7 +82,7 @@ void CheckSystem(const FreeBodies& free, const MultiContactScene& scene, Check& 
   const int directions = DirectionsOf(scene);
   check.Require(directions != 0, [&] {
     return MakeViolation("free_bodies.bodies[0].position_m",
-                         absl::StrCat("has ", free.bodies.front().position_m.size(), " entries"),
+                         absl::StrCat("has ", Counted(free.bodies.front().position_m.size(), "entry")),
                          "have 2 in a plane or 3 in space");
   });
   for (size_t i = 0; directions != 0 && i < free.bodies.size(); ++i) CheckBody(free.bodies[i], i, directions, check);
@@ -130,7 +131,7 @@ void CheckPlace(const MultiContactScene& scene, size_t index, Check& check) {
 void CheckContacts(const MultiContactScene& scene, Check& check) {
   const size_t count = scene.contacts.size();
   check.Require(count >= 1 && count <= static_cast<size_t>(kMostContacts), [&] {
-    return MakeViolation("contacts", absl::StrCat("has ", count, " entries"),
+    return MakeViolation("contacts", absl::StrCat("has ", Counted(count, "entry")),
                          absl::StrCat("have 1 to ", kMostContacts));
   });
   for (size_t i = 0; i < count && !check.IsFull(); ++i) {
