@@ -1,17 +1,11 @@
 #include <variant>
 
 #include "core/scene/check.h"
+#include "core/scene/numbers.h"
 
 namespace ricochet {
 namespace {
 
-// The name of the member of `finite_forces` that is set, and the rule that says which systems may have it.
-struct ForcesText {
-  const char* field;
-  const char* rule;
-};
-
-bool GoesWith(std::monostate /*none*/, const System& /*system*/) { return true; }
 bool GoesWith(const PinMoment& /*moment*/, const System& system) { return std::holds_alternative<Pendulum>(system); }
 bool GoesWith(const ContactAcceleration& /*acceleration*/, const System& system) {
   return std::holds_alternative<PlanarContact>(system);
@@ -21,23 +15,19 @@ bool GoesWith(const Gravity& /*gravity*/, const System& system) {
   return std::holds_alternative<PlanarBody>(system) || std::holds_alternative<Linkage>(system);
 }
 
-ForcesText TextOf(std::monostate /*none*/) { return {"", ""}; }
-ForcesText TextOf(const PinMoment& /*moment*/) { return {"pin_moment", "only be for pendulum"}; }
-ForcesText TextOf(const ContactAcceleration& /*acceleration*/) {
-  return {"contact_acceleration", "only be for planar_contact"};
-}
-ForcesText TextOf(const Gravity& /*gravity*/) {
-  return {"gravity", "only be for planar_body, body_pair.planar and linkage"};
-}
+// The rule that says which systems may have the forces.
+const char* RuleOf(const PinMoment& /*moment*/) { return "only be for pendulum"; }
+const char* RuleOf(const ContactAcceleration& /*acceleration*/) { return "only be for planar_contact"; }
+const char* RuleOf(const Gravity& /*gravity*/) { return "only be for planar_body, body_pair.planar and linkage"; }
 
-void CheckForces(const Scene& scene, bool has_law, Check& check) {
-  if (std::holds_alternative<std::monostate>(scene.finite_forces)) return;
-  const ForcesText text = std::visit([](const auto& forces) { return TextOf(forces); }, scene.finite_forces);
-  const bool goes = std::visit([&](const auto& forces) { return GoesWith(forces, scene.system); }, scene.finite_forces);
-  check.Require(goes || std::holds_alternative<std::monostate>(scene.system),
-                [&] { return MakeViolation(text.field, "is set", text.rule); });
+void CheckForces(std::monostate /*none*/, const System& /*system*/, bool /*has_law*/, Check& /*check*/) {}
+
+template <typename Forces>
+void CheckForces(const Forces& forces, const System& system, bool has_law, Check& check) {
+  check.Require(GoesWith(forces, system) || std::holds_alternative<std::monostate>(system),
+                [&] { return MakeViolation(PrefixOf(forces), "is set", RuleOf(forces)); });
   check.Require(!has_law, [&] {
-    return MakeViolation(text.field, "is set beside an impact law", "not be, an impact law has no duration");
+    return MakeViolation(PrefixOf(forces), "is set beside an impact law", "not be, an impact law has no duration");
   });
 }
 
@@ -64,7 +54,7 @@ bool HasDamping(const Scene& scene) {
 
 void CheckEffects(const Scene& scene, Check& check) {
   const bool has_law = !std::holds_alternative<std::monostate>(scene.impact_law);
-  CheckForces(scene, has_law, check);
+  std::visit([&](const auto& forces) { CheckForces(forces, scene.system, has_law, check); }, scene.finite_forces);
   if (!scene.compliance.has_value()) return;
   const Compliance& compliance = *scene.compliance;
   check.Require(!has_law, [] {

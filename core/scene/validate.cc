@@ -64,15 +64,10 @@ void CheckRestitution(const Scene& scene, RestitutionIs restitution, Check& chec
   }
 }
 
-const char* NameOf(const ImpactLaw& law) {
-  struct Namer {
-    const char* operator()(std::monostate) const { return ""; }
-    const char* operator()(WhittakerLaw) const { return "whittaker"; }
-    const char* operator()(KaneLevinsonLaw) const { return "kane_levinson"; }
-    const char* operator()(BrachLaw) const { return "brach"; }
-    const char* operator()(ChatterjeeRuinaLaw) const { return "chatterjee_ruina"; }
-  };
-  return std::visit(Namer(), law);
+const char* NameOf(std::monostate /*unset*/) { return ""; }
+template <typename Law>
+const char* NameOf(const Law& law) {
+  return PrefixOf(law);
 }
 
 // Checks which other parts of a scene the system may be combined with.
@@ -86,8 +81,10 @@ void CheckTogether(const Scene& scene, Check& check) {
     const size_t entries = scene.surface_velocity->tangential_m_s.size();
     if (entries > 0) check.Length("surface_velocity.tangential_m_s", entries, directions);
   }
-  check.Require(std::holds_alternative<std::monostate>(scene.impact_law) || directions == 1,
-                [&] { return MakeViolation(NameOf(scene.impact_law), "is set", "not be for a system in space"); });
+  check.Require(std::holds_alternative<std::monostate>(scene.impact_law) || directions == 1, [&] {
+    const auto name = [](const auto& law) { return NameOf(law); };
+    return MakeViolation(std::visit(name, scene.impact_law), "is set", "not be for a system in space");
+  });
 }
 
 enum class Scope {
