@@ -1,10 +1,12 @@
 #include <cmath>
+#include <limits>
 #include <string>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/decimal.h"
 #include "core/contact/coefficients_at_speed.h"
+#include "core/contact/interval_reduction.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
 
@@ -83,11 +85,7 @@ void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const Eff
 }
 
 // True if impulses along n move the contact, or it does not approach, whatever the numbers of the system are.
-bool MobilityIsSure(const Scene& scene) {
-  if (scene.surface_velocity.has_value()) return false;
-  const auto* linkage = std::get_if<Linkage>(&scene.system);
-  return std::holds_alternative<Pendulum>(scene.system) || (linkage != nullptr && linkage->links.size() == 1);
-}
+bool MobilityIsSure(const Scene& scene) { return !scene.surface_velocity.has_value() && IsOfRankOne(scene.system); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/escaping.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
@@ -31,8 +32,6 @@ void MakeSurface(Scene& scene) {
   if (tangential.empty()) tangential.resize(TangentialDirections(scene.system));
 }
 
-bool StartsWith(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
-
 // Switches the scene to the definition of restitution that `path` names. Returns false if it names none.
 bool SwitchRestitution(const std::string& path, Scene& scene) {
   if (path == "restitution.newton") {
@@ -51,7 +50,7 @@ bool SwitchRestitution(const std::string& path, Scene& scene) {
 void MakePresent(const std::string& path, Scene& scene) {
   auto& static_coefficient = scene.friction.static_coefficient;
   if (path == "friction.static_coefficient" && !static_coefficient.has_value()) static_coefficient = 0.0;
-  if (StartsWith(path, "surface_velocity.")) MakeSurface(scene);
+  if (absl::StartsWith(path, "surface_velocity.")) MakeSurface(scene);
 }
 
 // Removes WORD, or the index of a list, from the front of `text`. Returns false if something else stands there.
@@ -133,7 +132,7 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   if (!has_law && SwitchRestitution(path, scene)) {
     return Field(*Field::Find(path, scene), {"restitution.coefficient"});  // The three definitions share one place.
   }
-  const bool is_definition = StartsWith(path, "restitution.") && !StartsWith(path, "restitution.by_speed.");
+  const bool is_definition = absl::StartsWith(path, "restitution.") && !absl::StartsWith(path, "restitution.by_speed.");
   if (is_definition) return UnknownField(path, scene);
   const std::optional<SurfaceVelocity> stated = scene.surface_velocity;
   MakePresent(path, scene);
