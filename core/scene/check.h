@@ -29,6 +29,13 @@ inline Violation CountViolation(std::string field, size_t found, size_t wanted) 
   return MakeViolation(std::move(field), absl::StrCat("has ", Counted(found, "entry")), absl::StrCat("have ", wanted));
 }
 
+// The paths of the first entries of a list.
+inline std::vector<std::string> EntriesOf(const std::string& field, size_t count) {
+  std::vector<std::string> entries;
+  for (size_t i = 0; i < count; ++i) entries.push_back(absl::StrCat(field, "[", i, "]"));
+  return entries;
+}
+
 class Check {
  public:
   // kVerdict spares the texts of the violations, because a sweep checks every point.

@@ -81,12 +81,10 @@ void CheckDefinite(const Mechanism& mechanism, Check& check) {
   if (scaled.IsSurelyDefinite()) return;
   const double eigenvalue = scaled.SmallestEigenvalue();
   check.Require(eigenvalue > scaled.least(), [&] {
-    std::vector<std::string> entries;
-    for (size_t i = 0; i < n * n; ++i) entries.push_back(EntryOf(kMass, i));
     return MakeViolation(
         kMass, absl::StrCat("has the eigenvalue ", ShortestDecimal(eigenvalue), " when scaled to a diagonal in [1, 4)"),
         absl::StrCat("be positive definite, with eigenvalues above rounding, ", ShortestDecimal(scaled.least())),
-        ViolationKind::kValue, std::move(entries));
+        ViolationKind::kValue, EntriesOf(kMass, n * n));
   });
 }
 

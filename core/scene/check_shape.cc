@@ -27,12 +27,6 @@ std::string ListText(const std::vector<double>& values) {
                       "]");
 }
 
-std::vector<std::string> EntriesOf(const std::string& field, size_t count) {
-  std::vector<std::string> entries;
-  for (size_t i = 0; i < count; ++i) entries.push_back(absl::StrCat(field, "[", i, "]"));
-  return entries;
-}
-
 Violation MatrixViolation(const std::string& field, const std::vector<double>& upper, const char* rule) {
   return MakeViolation(field, absl::StrCat("= ", ListText(upper)), absl::StrCat("be ", rule), ViolationKind::kValue,
                        EntriesOf(field, upper.size()));
