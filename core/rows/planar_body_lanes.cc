@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/contact/planar_body_share.h"
 #include "core/rows/planar_lanes.h"
+#include "core/scene/numbers.h"
 
 namespace ricochet {
 namespace {
@@ -32,8 +33,6 @@ PlanarBody BodyAt(const SceneLanes::Columns& columns, size_t body, size_t i) {
   numbers::VisitPart(one, "", set);
   return one;
 }
-
-bool IsPositive(double number) { return number > 0.0 && number <= std::numeric_limits<double>::max(); }
 
 }  // namespace
 
@@ -91,7 +90,8 @@ void PlanarBodyLanes::Reduce(const Columns& columns, size_t count) {
     for (size_t i = 0; i < count; ++i) {
       const PlanarBody one = BodyAt(columns, body, i);
       const PlanarBodyShare share = ShareOf(one);
-      const bool keeps_rules = IsPositive(one.mass_kg) && IsPositive(one.inertia_com_kg_m2);
+      const bool keeps_rules =
+          Holds(one.mass_kg, NumberRule::kPositive) && Holds(one.inertia_com_kg_m2, NumberRule::kPositive);
       contact_.wtt[i] += keeps_rules ? share.wtt : std::numeric_limits<double>::quiet_NaN();
       contact_.wtn[i] += share.wtn;
       contact_.wnn[i] += share.wnn;

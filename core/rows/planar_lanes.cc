@@ -28,9 +28,6 @@ bool IsSurelyValid(const planar::Problem& problem) {
          KeepCoefficientRules(problem.mu, problem.mu_static, problem.law, problem.coefficient);
 }
 
-// The numbers of a contact that separates. The rank of W is not an output.
-ImpactEnd<double> Separated(double u0, double v0) { return Separating<ImpactEnd<double>>(2, u0, v0); }
-
 }  // namespace
 
 std::unique_ptr<SceneLanes> PlanarLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
@@ -121,7 +118,9 @@ void PlanarLanes::SolveTogether(const Columns& columns, absl::Span<const uint16_
 }
 
 void PlanarLanes::Separate(const Columns& columns, size_t i, absl::Span<double* const> places, Block& block) const {
-  const auto numbers = planar::NumbersOf(Separated(columns.of[kU0][i], columns.of[kV0][i]), 0.0);
+  // The rank of W is not an output.
+  const auto separated = Separating<ImpactEnd<double>>(2, columns.of[kU0][i], columns.of[kV0][i]);
+  const auto numbers = planar::NumbersOf(separated, 0.0);
   for (size_t c = 0; c < outputs_.size(); ++c) places[c][i] = numbers[static_cast<size_t>(outputs_[c])];
   block.regimes[i] = Regime::kSeparating;
   block.inadmissible[i] = false;

@@ -12,6 +12,7 @@
 #include "core/contact/reduction.h"
 #include "core/contact/symmetric_matrix.h"
 #include "core/scene/check.h"
+#include "core/scene/numbers.h"
 
 namespace ricochet {
 namespace {
@@ -77,8 +78,7 @@ void CheckOne(const PlanarContact& contact, Check& check) {
   const double tt = contact.w_tt_per_kg;
   const double nn = contact.w_nn_per_kg;
   const double tn = contact.w_tn_per_kg;
-  const bool is_finite = std::isfinite(tt) && std::isfinite(tn) && std::isfinite(nn);
-  if (!is_finite || tt < 0.0 || nn < 0.0) return;
+  if (!Holds(tt, NumberRule::kNotNegative) || !std::isfinite(tn) || !Holds(nn, NumberRule::kNotNegative)) return;
   check.Require(PlanarDelassus{tt, tn, nn}.IsSemidefinite(), [&] {
     return MakeViolation("planar_contact.w_tn_per_kg", tn,
                          absl::StrCat("leave W positive semidefinite: w_tn^2 <= w_tt w_nn = ", ShortestDecimal(tt),

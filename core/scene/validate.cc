@@ -1,6 +1,5 @@
 #include "core/scene/validate.h"
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,9 +18,8 @@ namespace {
 // Compares the static coefficient with the kinetic one, if each keeps its own rule.
 void CheckStatic(const Friction& friction, Check& check) {
   const double kinetic = friction.kinetic_coefficient;
-  if (!friction.static_coefficient.has_value() || !(kinetic >= 0.0) || !std::isfinite(kinetic)) return;
-  const double value = *friction.static_coefficient;
-  if (!std::isfinite(value) || value < 0.0) return;
+  const double value = friction.static_coefficient.value_or(kinetic);
+  if (!Holds(kinetic, NumberRule::kNotNegative) || !Holds(value, NumberRule::kNotNegative)) return;
   check.Require(value >= kinetic, [&] {
     return MakeViolation("friction.static_coefficient", value,
                          absl::StrCat("be >= friction.kinetic_coefficient = ", ShortestDecimal(kinetic)),
