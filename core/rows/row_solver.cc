@@ -74,7 +74,8 @@ std::optional<int64_t> RowSolver::Solve(RowSource& source, int64_t first, int64_
     fields_ = source.At(first + done, size);
     for (size_t c = 0; c < places_.size(); ++c) places_[c] = sink.columns[c] + done;
     for (size_t k = 0; k < others_.size(); ++k) other_places_[k] = places_[others_[k]];
-    const std::optional<size_t> solved = SolveBlock(size, stopped, is_enough);
+    const std::optional<size_t> solved =
+        lanes_ == nullptr ? SolveScenes(size, stopped, is_enough) : SolveInLanes(size, stopped);
     if (!solved.has_value()) return std::nullopt;
     Finish(first, static_cast<size_t>(done), *solved, sink);
     done += static_cast<int64_t>(*solved);
@@ -83,33 +84,25 @@ std::optional<int64_t> RowSolver::Solve(RowSource& source, int64_t first, int64_
   return count;
 }
 
-// Returns how many rows are solved, or nothing if it was stopped.
-std::optional<size_t> RowSolver::SolveBlock(size_t count, absl::FunctionRef<bool()> stopped,
-                                            absl::FunctionRef<bool()> is_enough) {
-  if (lanes_ == nullptr) return SolveScenes(count, stopped, is_enough);
-  if (!SolveInLanes(count, stopped)) return std::nullopt;
-  return count;
-}
-
-// Rows that the lanes leave go by their scenes. Returns false if it was stopped.
-bool RowSolver::SolveInLanes(size_t count, absl::FunctionRef<bool()> stopped) {
+// Rows that the lanes leave go by their scenes. Returns how many rows are solved, all, or nothing if it was stopped.
+std::optional<size_t> RowSolver::SolveInLanes(size_t count, absl::FunctionRef<bool()> stopped) {
   lanes_->Solve(lane_columns_->Of(fields_, count), count, other_places_, block_);
   for (size_t i = 0; i < count; ++i) {
     statuses_[i] = block_.inadmissible[i]                 ? RowStatus::kInadmissible
                    : block_.regimes[i] == Regime::kWedged ? RowStatus::kNotConverged
                                                           : RowStatus::kOk;
   }
-  if (block_.is_complete && derivatives_.empty()) return true;
+  if (block_.is_complete && derivatives_.empty()) return count;
   block_.is_complete = block_.is_uniform = false;
   for (size_t i = 0; i < count; ++i) {
     const bool is_solved = block_.models[i] != Model::kUnspecified;
     if (is_solved) CheckNumbers(i);
     if (is_solved && derivatives_.empty()) continue;
-    if (!is_solved && stopped()) return false;
+    if (!is_solved && stopped()) return std::nullopt;
     driven_.SetRow(fields_, i);
-    if (!(is_solved ? SetDerivatives(i, stopped) : Begin(i, stopped))) return false;
+    if (!(is_solved ? SetDerivatives(i, stopped) : Begin(i, stopped))) return std::nullopt;
   }
-  return true;
+  return count;
 }
 
 // Returns how many rows are solved, or nothing if it was stopped.

@@ -68,9 +68,7 @@ class RowSolver {
 
  private:
   // The functions below work on rows of the current block.
-  std::optional<size_t> SolveBlock(size_t count, absl::FunctionRef<bool()> stopped,
-                                   absl::FunctionRef<bool()> is_enough);
-  bool SolveInLanes(size_t count, absl::FunctionRef<bool()> stopped);
+  std::optional<size_t> SolveInLanes(size_t count, absl::FunctionRef<bool()> stopped);
   std::optional<size_t> SolveScenes(size_t count, absl::FunctionRef<bool()> stopped,
                                     absl::FunctionRef<bool()> is_enough);
   bool Begin(size_t i, absl::FunctionRef<bool()> stopped);
