@@ -1,6 +1,7 @@
 #include "core/contact/coefficients_at_speed.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <variant>
 #include <vector>
@@ -70,15 +71,16 @@ AffineInterval Factor(const SpeedTable& table, const AffineInterval& speed) {
   return speed.Through(Factor(pieces, speed.centre()), Factor(pieces, speed.range()), slope);
 }
 
+// The value of a coefficient of restitution, or the coefficient e of an impact law.
 std::optional<double> Value(std::monostate /*unset*/) { return std::nullopt; }
-template <typename Coefficient>
-std::optional<double> Value(const Coefficient& coefficient) {
-  return coefficient.value;
+template <typename Stated>
+std::optional<double> Value(const Stated& stated) {
+  if constexpr (requires { stated.value; }) {
+    return stated.value;
+  } else {
+    return stated.e;
+  }
 }
-std::optional<double> Value(const WhittakerLaw& law) { return law.e; }
-std::optional<double> Value(const KaneLevinsonLaw& law) { return law.e; }
-std::optional<double> Value(const BrachLaw& law) { return law.e; }
-std::optional<double> Value(const ChatterjeeRuinaLaw& law) { return law.e; }
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -171,9 +172,8 @@ void SetCoefficients(const Scene& scene, const SceneContact& contact, const Scen
                         CoefficientOf(scene.restitution) *
                             FactorTangent(scene.restitution_by_speed, d.restitution_by_speed, speed, d_speed);
   // The approach speed, which is never negative, changes linearly where it is positive.
-  const bool depends_on_speed = scene.friction.by_speed.has_value() || scene.restitution_by_speed.has_value();
   tangent.is_at_speed_of_table = Lists(scene.friction.by_speed, speed) || Lists(scene.restitution_by_speed, speed);
-  tangent.is_linear = !depends_on_speed || (speed > 0.0 && !tangent.is_at_speed_of_table);
+  tangent.is_linear = !DependsOnSpeed(scene) || (speed > 0.0 && !tangent.is_at_speed_of_table);
 }
 
 }  // namespace

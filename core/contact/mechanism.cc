@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/numerics/compensated_sums.h"
+#include "core/numerics/moderate.h"
 
 namespace ricochet {
 namespace {
@@ -189,10 +190,8 @@ MechanismErrors::MechanismErrors(const Mechanism& mechanism, const FreePart& par
     }
   }
   // Outside this range a product may have underflowed.
-  const auto is_moderate = [](double size) { return size == 0.0 || (size >= 0x1p-300 && size <= 0x1p300); };
   for (Index j = 0; j < directions; ++j) {
-    if (is_moderate(part.jt.col(j).lpNorm<Eigen::Infinity>()) && is_moderate(motion.size[static_cast<size_t>(j)]))
-      continue;
+    if (AreModerate({part.jt.col(j).lpNorm<Eigen::Infinity>(), motion.size[static_cast<size_t>(j)]}, 0x1p300)) continue;
     w.setConstant(kInfinity);
     response.setConstant(kInfinity);
   }
