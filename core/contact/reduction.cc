@@ -20,31 +20,10 @@ namespace ricochet {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// An eigenvalue of a W that is scaled to a unit diagonal counts as 0 up to this size.
+constexpr double kSingular = 16.0 * kEpsilon;
 
-// --- From M, J and q' ---
-
-// Computes W, the velocities and the response of a system from its mass matrix and its transposed Jacobian `jt`.
-template <size_t kTangential>
-Reduction<kTangential> FromMechanism(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& jt,
-                                     const Eigen::VectorXd& before) {
-  constexpr int kDirections = kTangential + 1;
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(mass);
-  const Eigen::MatrixXd y = cholesky.matrixL().solve(jt);
-  const Eigen::MatrixXd response = cholesky.matrixU().solve(y);
-  Reduction<kTangential> reduction;
-  size_t k = 0;
-  for (int i = 0; i < kDirections; ++i) {
-    for (int j = i; j < kDirections; ++j) reduction.w[k++] = y.col(i).dot(y.col(j));
-  }
-  const Eigen::VectorXd velocity = jt.transpose() * before;
-  for (size_t i = 0; i < kTangential; ++i) reduction.u0[i] = velocity(static_cast<int>(i));
-  reduction.v0 = velocity(kDirections - 1);
-  reduction.before.assign(before.data(), before.data() + before.size());
-  for (int row = 0; row < response.rows(); ++row) {
-    for (int column = 0; column < kDirections; ++column) reduction.response.push_back(response(row, column));
-  }
-  return reduction;
-}
+// --- Pendulums, linkages and mechanisms ---
 
 // A bound on |det W|/(Wtt Wnn), or on an eigenvalue of W scaled to a unit diagonal, after rounding, if the exact one is
 // 0.
@@ -93,13 +72,26 @@ PlanarReduction ReduceOne(const Pendulum& pendulum) {
   return reduction;
 }
 
+void Settle(const Eigen::Vector2d& sizes, PlanarReduction& reduction) {
+  SettleRank(reduction);
+  SettleVelocity(sizes, reduction);
+}
+
 PlanarReduction ReduceOne(const Linkage& linkage) {
   const Eigen::VectorXd rates = RatesOf(linkage);
   const Eigen::MatrixXd jt = TransposedJacobian(linkage);
-  PlanarReduction reduction = FromMechanism<1>(MassMatrix(linkage), jt, rates);
-  reduction.coordinates = Coordinates::kRates;
-  SettleRank(reduction);
-  SettleVelocity(jt.cwiseAbs().transpose() * rates.cwiseAbs(), reduction);
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(MassMatrix(linkage));
+  const Eigen::MatrixXd y = cholesky.matrixL().solve(jt);
+  const Eigen::MatrixXd response = cholesky.matrixU().solve(y);
+  const Eigen::VectorXd velocity = jt.transpose() * rates;
+  PlanarReduction reduction = {.w = {y.col(0).dot(y.col(0)), y.col(0).dot(y.col(1)), y.col(1).dot(y.col(1))},
+                               .u0 = {velocity(0)},
+                               .v0 = velocity(1),
+                               .coordinates = Coordinates::kRates};
+  reduction.before.assign(rates.begin(), rates.end());
+  for (const auto& row : response.rowwise())
+    reduction.response.insert(reduction.response.end(), row.begin(), row.end());
+  Settle(jt.cwiseAbs().transpose() * rates.cwiseAbs(), reduction);
   return reduction;
 }
 
@@ -111,8 +103,9 @@ void LowerRankTo(int rank, SpatialReduction& reduction) {
   }
 }
 
-// Finds the rank in space, where eigenvalues of the scaled W are compared with the noise.
-void SettleRankAndVelocity(const Eigen::Vector3d& sizes, SpatialReduction& reduction) {
+// Settles the rank of a W in space, of which the eigenvalues after scaling are compared with the noise, and the
+// velocity.
+void Settle(const Eigen::Vector3d& sizes, SpatialReduction& reduction) {
   if (!IsFinite(reduction) || IsSurelyDefinite(reduction.w)) return;
   const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
   const Eigen::Vector3d scales = InverseScales(matrix);
@@ -135,14 +128,6 @@ void SettleRankAndVelocity(const Eigen::Vector3d& sizes, SpatialReduction& reduc
   reduction.u0 = {velocity(0), velocity(1)};
   reduction.v0 = velocity(2);
   LowerRankTo(std::max(rank, 1), reduction);
-}
-
-void Settle(const std::vector<double>& sizes, PlanarReduction& reduction) {
-  SettleRank(reduction);
-  SettleVelocity({sizes[0], sizes[1]}, reduction);
-}
-void Settle(const std::vector<double>& sizes, SpatialReduction& reduction) {
-  SettleRankAndVelocity({sizes[0], sizes[1], sizes[2]}, reduction);
 }
 
 template <size_t kTangential>
@@ -168,7 +153,7 @@ AnyReduction ReduceMechanism(const Mechanism& mechanism) {
     for (Eigen::Index j = 0; j < kDirections; ++j) row[j] = part.scales(i) * solved.x(i, j);
   }
   reduction.momentum = MomentumOf(mechanism, part.coordinates, reduction.response);
-  Settle(motion.size, reduction);
+  Settle(Eigen::Map<const Eigen::Matrix<double, kDirections, 1>>(motion.size.data()), reduction);
   return reduction;
 }
 
@@ -356,7 +341,7 @@ static double ContactEnergy(const SpatialReduction& reduction) {
       scales.asDiagonal() * Eigen::Vector3d(reduction.u0[0], reduction.u0[1], reduction.v0);
   double energy = 0.0;
   for (int i = 0; i < 3; ++i) {
-    if (solver.eigenvalues()(i) <= 16.0 * kEpsilon) continue;
+    if (solver.eigenvalues()(i) <= kSingular) continue;
     const double along = solver.eigenvectors().col(i).dot(velocity);
     energy += 0.5 * along * along / solver.eigenvalues()(i);
   }
@@ -375,22 +360,23 @@ double ShareOutsideRange(const SpatialReduction& reduction) {
   const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
   const Eigen::Vector3d scales = InverseScales(matrix);
   const Eigen::Vector3d velocity(reduction.u0[0], reduction.u0[1], reduction.v0);
-  double share = 0.0;
   for (int i = 0; i < 3; ++i) {
     if (scales(i) == 0.0 && velocity(i) != 0.0) return 1.0;
   }
   const Eigen::Matrix3d scaled = scales.asDiagonal() * matrix * scales.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scaled);
   const Eigen::Vector3d scaled_velocity = scales.asDiagonal() * velocity;
+  const double norm = scaled_velocity.stableNorm();
+  if (!(norm > 0.0)) return 0.0;
   // Rounding of W turns the directions outside its range by up to this share over the least eigenvalue inside.
   double least = 1.0;
-  for (int i = 2; i >= 0 && solver.eigenvalues()(i) > 16.0 * kEpsilon; --i) least = solver.eigenvalues()(i);
-  const double turned = std::min(16.0 * kEpsilon / std::min(least, 1.0), 0x1p-20);
+  for (int i = 2; i >= 0 && solver.eigenvalues()(i) > kSingular; --i) least = solver.eigenvalues()(i);
+  const double turned = std::min(kSingular / std::min(least, 1.0), 0x1p-20);
+  double share = 0.0;
   for (int i = 0; i < 3; ++i) {
-    if (solver.eigenvalues()(i) > 16.0 * kEpsilon) continue;
+    if (solver.eigenvalues()(i) > kSingular) continue;
     const Eigen::Vector3d outside = solver.eigenvectors().col(i);
-    const double norm = scaled_velocity.stableNorm();
-    if (norm > 0.0) share = std::max(share, std::abs(outside.dot(scaled_velocity)) / norm - turned);
+    share = std::max(share, std::abs(outside.dot(scaled_velocity)) / norm - turned);
   }
   return share;
 }
