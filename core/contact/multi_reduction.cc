@@ -31,13 +31,38 @@ Eigen::MatrixXd InertiaOf(const FreeBody& body) {
   return Symmetric(i.data());
 }
 
-// The share of one of its two bodies in a contact: the body's place, +1 if its impulses act on it and -1 if their
-// opposites do, and for each direction the arm and L^-1 times it, with the inertia L L^T.
+// The share of one of its two bodies in a contact: the body's number, +1 if its impulses act on it and -1 if their
+// opposites do, and for each direction L^-1 times the arm, with the inertia L L^T.
 struct Share {
   int body;
-  double side;
-  std::vector<Eigen::VectorXd> arms, scaled;
+  double side, per_mass;
+  std::vector<Eigen::VectorXd> scaled_arms;
 };
+
+struct BodyContact {
+  Eigen::MatrixXd directions;
+  std::vector<Share> shares;
+};
+
+// The block of W for two contacts, to which each body adds that both have.
+Eigen::MatrixXd BlockOf(const BodyContact& one, const BodyContact& other) {
+  const Eigen::Index space = one.directions.rows();
+  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(space, space);
+  for (const Share& share : one.shares) {
+    for (const Share& its : other.shares) {
+      if (share.body != its.body) continue;
+      const double side = share.side * its.side;
+      for (Eigen::Index a = 0; a < space; ++a) {
+        for (Eigen::Index b = 0; b < space; ++b) {
+          const double along = one.directions.row(a).dot(other.directions.row(b));
+          const double turning = share.scaled_arms[static_cast<size_t>(a)].dot(its.scaled_arms[static_cast<size_t>(b)]);
+          block(a, b) += side * (share.per_mass * along + turning);
+        }
+      }
+    }
+  }
+  return block;
+}
 
 MultiReduction ReduceBodies(const std::vector<FreeBody>& bodies, const std::vector<MultiContactPoint>& contacts) {
   const auto space = static_cast<Eigen::Index>(bodies.front().position_m.size());
@@ -60,48 +85,33 @@ MultiReduction ReduceBodies(const std::vector<FreeBody>& bodies, const std::vect
     reduction.mobility.segment(at + space, turns) =
         inertias[b].solve(Eigen::MatrixXd::Identity(turns, turns)).diagonal();
   }
-  std::vector<Eigen::MatrixXd> directions;
-  std::vector<std::vector<Share>> shares;
+  std::vector<BodyContact> touching;
   for (size_t c = 0; c < contacts.size(); ++c) {
     const MultiContactPoint& contact = contacts[c];
-    directions.push_back(ContactDirections(contact));
-    shares.emplace_back();
+    BodyContact& own = touching.emplace_back(BodyContact{.directions = ContactDirections(contact), .shares = {}});
     for (const auto& [number, side] : {std::pair(contact.body, 1.0), std::pair(contact.other_body, -1.0)}) {
       if (number == 0) continue;
       const auto b = static_cast<size_t>(number - 1);
       const auto at = coordinates * static_cast<Eigen::Index>(b);
-      Share& share = shares.back().emplace_back(Share{.body = number, .side = side, .arms = {}, .scaled = {}});
+      const double per_mass = 1.0 / bodies[b].mass_kg;
+      Share& share = own.shares.emplace_back(Share{number, side, per_mass, {}});
       const Eigen::VectorXd r = ToEigen(contact.point_m, space) - ToEigen(bodies[b].position_m, space);
       for (Eigen::Index a = 0; a < space; ++a) {
         const Eigen::Index row = space * static_cast<Eigen::Index>(c) + a;
-        const Eigen::VectorXd direction = directions.back().row(a);
-        share.arms.push_back(Arm(r, direction));
-        share.scaled.emplace_back(inertias[b].matrixL().solve(share.arms.back()));
+        const Eigen::VectorXd direction = own.directions.row(a);
+        const Eigen::VectorXd arm = Arm(r, direction);
+        share.scaled_arms.emplace_back(inertias[b].matrixL().solve(arm));
         reduction.jacobian.row(row).segment(at, space) = side * direction;
-        reduction.jacobian.row(row).segment(at + space, turns) = side * share.arms.back();
+        reduction.jacobian.row(row).segment(at + space, turns) = side * arm;
         reduction.response.col(row).segment(at, space) = (side / bodies[b].mass_kg) * direction;
-        reduction.response.col(row).segment(at + space, turns) = side * inertias[b].solve(share.arms.back());
+        reduction.response.col(row).segment(at + space, turns) = side * inertias[b].solve(arm);
       }
     }
   }
   for (size_t i = 0; i < contacts.size(); ++i) {
     for (size_t j = 0; j < contacts.size(); ++j) {
-      auto block =
-          reduction.w.block(space * static_cast<Eigen::Index>(i), space * static_cast<Eigen::Index>(j), space, space);
-      for (const Share& one : shares[i]) {
-        for (const Share& other : shares[j]) {
-          if (one.body != other.body) continue;
-          const double side = one.side * other.side;
-          const double per_mass = 1.0 / bodies[static_cast<size_t>(one.body - 1)].mass_kg;
-          for (Eigen::Index a = 0; a < space; ++a) {
-            for (Eigen::Index b = 0; b < space; ++b) {
-              const double along = directions[i].row(a).dot(directions[j].row(b));
-              const double turning = one.scaled[static_cast<size_t>(a)].dot(other.scaled[static_cast<size_t>(b)]);
-              block(a, b) += side * (per_mass * along + turning);
-            }
-          }
-        }
-      }
+      reduction.w.block(space * static_cast<Eigen::Index>(i), space * static_cast<Eigen::Index>(j), space, space) =
+          BlockOf(touching[i], touching[j]);
     }
   }
   return reduction;
@@ -192,7 +202,7 @@ double DistanceFromRange(const Eigen::MatrixXd& w, const Eigen::VectorXd& v, con
   if (norm == 0.0) return 0.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
   Eigen::VectorXd outside = Eigen::VectorXd::Zero(v.size());
-  const double least = 16.0 * static_cast<double>(v.size()) * std::numeric_limits<double>::epsilon();
+  const double least = LeastEigenvalue(static_cast<size_t>(v.size()));
   for (Eigen::Index i = 0; i < v.size(); ++i) {
     if (solver.eigenvalues()(i) > least) continue;
     outside += solver.eigenvectors().col(i) * solver.eigenvectors().col(i).dot(x);

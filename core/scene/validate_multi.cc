@@ -10,7 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/counted.h"
 #include "core/base/decimal.h"
-#include "core/contact/reduction.h"
+#include "core/contact/mechanism.h"
 #include "core/contact/symmetric_matrix.h"
 #include "core/scene/check.h"
 #include "core/scene/field.h"
@@ -150,7 +150,7 @@ void CheckContacts(const MultiContactScene& scene, Check& check) {
 
 void CheckMatrix(const ContactMatrix& matrix, const MultiReduction& reduction, Check& check) {
   const auto rows = static_cast<size_t>(reduction.w.rows());
-  const double rounding = 16.0 * static_cast<double>(rows) * kEpsilon;
+  const double rounding = LeastEigenvalue(rows);
   const auto w = [&](size_t i, size_t j) { return matrix.w_per_kg[i * rows + j]; };
   for (size_t i = 0; i < rows; ++i) {
     for (size_t j = 0; j < i; ++j) {
