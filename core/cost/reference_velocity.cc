@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/certified/certified.h"
-#include "core/certified/residual.h"
 #include "core/cost/certified_velocity.h"
 #include "core/models/pendulum/nearly_vertical_forms.h"
 #include "core/models/spatial/solver-inl.h"

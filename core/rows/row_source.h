@@ -13,7 +13,6 @@
 #include "absl/container/inlined_vector.h"
 #include "absl/types/span.h"
 #include "core/rows/scene_lanes.h"
-#include "ricochet/batch.h"
 #include "ricochet/grid.h"
 
 namespace ricochet {

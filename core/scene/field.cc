@@ -10,7 +10,6 @@
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
 #include "core/base/nearest.h"
-#include "core/contact/reduction.h"
 #include "core/numerics/elementary.h"
 #include "core/scene/check.h"
 
