@@ -59,25 +59,10 @@ void AddVelocities(const SystemContact<N>& system, const Impact<N>& impact, Answ
   }
 }
 
-// A contact that separates has no impact, and nothing changes.
+// A contact that separates has no impact: nothing changes, and all other numbers are 0.
 template <typename N>
 Impact<N> SeparatingImpact(const Contact<N>& contact) {
-  const N zero(0.0);
-  return {.regime = Regime::kSeparating,
-          .newton = zero,
-          .poisson = zero,
-          .tangential = zero,
-          .energetic = {zero, false},
-          .u1 = contact.u0,
-          .v1 = contact.v0,
-          .tau_compression = zero,
-          .tau1 = zero,
-          .f1 = zero,
-          .normal_compression = zero,
-          .normal_restitution = zero,
-          .tangential_compression = zero,
-          .tangential_restitution = zero,
-          .normal_total = zero};
+  return {.regime = Regime::kSeparating, .u1 = contact.u0, .v1 = contact.v0};
 }
 
 // Gives the numbers of Outcome that the impact alone decides, in the order of VisitOutcomeNumbers.
@@ -122,13 +107,6 @@ template <typename N>
 struct RangesOfCoefficients {
   NumberRange<N> newton, poisson, energetic, tangential, normal_total;
 };
-
-template <typename N>
-RangesOfCoefficients<N> NoRanges() {
-  const Number<N> zero = {N(0.0)};
-  const NumberRange<N> none = {zero, zero};
-  return {none, none, none, none, none};
-}
 
 template <typename N>
 NumberRange<N> UpTo(Number<N> upper) {
@@ -227,12 +205,12 @@ BothRanges<N> RangesOf(const Contact<N>& contact, Branches& branches) {
 // so they are answered for one that leaves, too.
 template <typename N>
 BothRanges<N> RangesWhereSeparating(Contact<N> contact, bool is_pendulum, Branches& branches) {
-  BothRanges<N> ranges = {.sharp = NoRanges<N>(), .energy_only = NoRanges<N>()};
+  BothRanges<N> ranges;
   if (is_pendulum) {
     contact.v0 = N(-1.0);
     contact.u0 = -contact.rho;
     ranges = RangesOf(contact, branches);
-    ranges.sharp.normal_total = ranges.energy_only.normal_total = NoRanges<N>().normal_total;
+    ranges.sharp.normal_total = ranges.energy_only.normal_total = NumberRange<N>();
   }
   ranges.regime = Regime::kSeparating;
   return ranges;

@@ -8,7 +8,8 @@
 //   v_new^2 - v^2       2 v' times the normal work, so energetic restitution ends at a square root
 //   E_new - E           p step + P step^2/2 with p = f' u + v and P = f' u' + v'
 // If W has rank one, u = rho v with rho = Wtn/Wnn all along the path, so slip stops exactly where v = 0.
-// Units are those of core/models/planar/planar.h. Results are exact for Surd and enclosed for ArfInterval.
+// Units are those of core/models/planar/planar.h. Results are exact for Surd and enclosed for ArfInterval. An N that is
+// not set is 0.
 
 #ifndef RICOCHET_CORE_CERTIFIED_CONTACT_PATH_H_
 #define RICOCHET_CORE_CERTIFIED_CONTACT_PATH_H_
@@ -74,7 +75,7 @@ class ContactPath {
 
   // Solves the whole impact, with restitution by `law`.
   Impact<N> Solve(RestitutionLaw law, const N& coefficient) {
-    End end = {.at = compression_end_, .normal_twice = N(0.0), .tangential_twice = N(0.0), .passes_stop = false};
+    End end = {.at = compression_end_};
     const bool has_restitution = !locked_ && IsPositive(coefficient, branches_);
     if (has_restitution) {
       end = Restitute(law, coefficient);
@@ -125,7 +126,7 @@ class ContactPath {
   struct End {
     Point at;
     N normal_twice, tangential_twice;  // Twice the works of restitution.
-    bool passes_stop;
+    bool passes_stop = false;
   };
 
   static N Signed(const N& x, bool negative) { return negative ? -x : x; }
@@ -260,15 +261,13 @@ class ContactPath {
   }
 
   End Restitute(RestitutionLaw law, const N& coefficient) {
-    const N zero(0.0);
     const Steps steps = FindSteps(law, coefficient);
-    End end = {
-        .at = compression_end_, .normal_twice = zero, .tangential_twice = zero, .passes_stop = steps.passes_stop};
+    End end = {.at = compression_end_, .passes_stop = steps.passes_stop};
     const auto advance = [&](const Piece& piece, const N& step, const N& u, const N& v) {
       Advance(piece, step, u, v, end.at, end.normal_twice, end.tangential_twice);
     };
     if (steps.passes_stop) {
-      advance(Current(), steps.before, zero, v_stop_);
+      advance(Current(), steps.before, N(0.0), v_stop_);
       advance(second_, steps.after, second_.u * steps.after, steps.v1);
     } else {
       advance(Current(), steps.before, compression_end_.u + Current().u * steps.before, steps.v1);
@@ -286,14 +285,11 @@ class ContactPath {
     return sticks_ ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
   }
 
+  // Gives all numbers but the coefficients of restitution, which are 0.
   Impact<N> Describe(const End& end) {
     const N half(0.5);
-    const N zero(0.0);
     return {.regime = RegimeOf(end.passes_stop),
-            .newton = zero,
-            .poisson = zero,
             .tangential = end.at.f / end.at.tau,
-            .energetic = {zero, false},
             .u1 = end.at.u,
             .v1 = end.at.v,
             .tau_compression = compression_end_.tau,
