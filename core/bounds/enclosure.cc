@@ -354,15 +354,6 @@ CoefficientBounds BoundsOfSlip(const Pendulums& all) {
   return bounds;
 }
 
-// Returns the range of mu_hat for contacts on either side of the pin, given the range for b > 0.
-Range OnBothSides(const Range& right, const Interval& b) {
-  Interval sides = kNothing;
-  if (b.upper > 0.0) sides = Hull(sides, {right.lower, right.upper});
-  if (b.lower < 0.0) sides = Hull(sides, {-right.upper, -right.lower});
-  if (Contains(b, 0.0)) sides = Hull(sides, 0.0);
-  return ToRange(sides);
-}
-
 CoefficientBounds OuterBounds(const PendulumBox& box) {
   const Pendulums all = MakePendulums(box);
   const Interval plastic = all.inertia * all.speed / (all.a + all.mu * all.arm);
@@ -377,7 +368,7 @@ CoefficientBounds OuterBounds(const PendulumBox& box) {
     outer.tangential.lower = slip.tangential.lower;
     outer.normal_total_n_s.upper = std::max(plastic.upper, slip.normal_total_n_s.upper);
   }
-  outer.tangential = OnBothSides(outer.tangential, box.b);
+  outer.tangential = ToRange(OnItsSide({outer.tangential.lower, outer.tangential.upper}, box.b));
   if (box.omega_minus.upper >= 0.0) outer.normal_total_n_s.lower = 0.0;
   if (box.omega_minus.lower >= 0.0) outer.normal_total_n_s.upper = 0.0;
   return outer;

@@ -24,24 +24,18 @@
 
 namespace ricochet {
 
-// Units as in core/models/planar/planar.h.
-struct PlanarBox {
-  Interval wtt, wtn, wnn;
-  Interval u0, v0;
-  Interval mu;
-  std::optional<Interval> mu_static;  // The kinetic coefficient if unset.
+// The contacts of a box over a type of intervals. Units as in core/models/planar/planar.h.
+template <typename N>
+struct PlanarBoxOf {
+  N wtt, wtn, wnn;
+  N u0, v0;
+  N mu;
+  std::optional<N> mu_static;  // The kinetic coefficient if unset.
   // C = Wnn - Wtn^2/Wtt = det W/Wtt, set if more is known of C than the entries of W tell.
-  std::optional<Interval> stick_slope;
+  std::optional<N> stick_slope;
 };
-
-// A PlanarBox to first order in its parameters.
-struct AffinePlanarBox {
-  AffineInterval wtt, wtn, wnn;
-  AffineInterval u0, v0;
-  AffineInterval mu;
-  std::optional<AffineInterval> mu_static;
-  std::optional<AffineInterval> stick_slope;
-};
+using PlanarBox = PlanarBoxOf<Interval>;
+using AffinePlanarBox = PlanarBoxOf<AffineInterval>;  // To first order in the parameters of the box.
 
 // Units as in core/models/pendulum/pendulum.h.
 struct PendulumBox {

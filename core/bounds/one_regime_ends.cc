@@ -8,11 +8,6 @@ namespace {
 
 const AffineInterval kOne = 1.0;
 
-Interval Tighter(const Interval& x, const AffineInterval& tighter) {
-  const Interval both = Intersect(x, tighter.range());
-  return IsEmpty(both) ? x : both;
-}
-
 // A contact whose slip starts in one direction. Tangential numbers are stated along that direction;
 // docs/theory/bounds.md has the slopes.
 struct Slipping {
@@ -152,13 +147,13 @@ PlanarEnds EncloseEnds(const AffinePlanarBox& box) {
   const std::optional<AffineEnds> tighter = EndsOf(box, *slipping);
   if (!tighter.has_value()) return ends;
   const bool backwards = box.u0.range().upper < 0.0;
-  const auto along = [&](const AffineInterval& drag) { return backwards ? drag : -drag; };
-  ends.newton = Tighter(ends.newton, tighter->newton);
-  ends.poisson = Tighter(ends.poisson, tighter->poisson);
-  ends.normal_plastic = Tighter(ends.normal_plastic, tighter->plastic);
-  ends.normal_elastic = Tighter(ends.normal_elastic, tighter->elastic);
-  ends.tangential_plastic = Tighter(ends.tangential_plastic, along(tighter->drag_plastic));
-  ends.tangential_elastic = Tighter(ends.tangential_elastic, along(tighter->drag_elastic));
+  const auto along = [&](const AffineInterval& drag) { return (backwards ? drag : -drag).range(); };
+  ends.newton = Both(ends.newton, tighter->newton.range());
+  ends.poisson = Both(ends.poisson, tighter->poisson.range());
+  ends.normal_plastic = Both(ends.normal_plastic, tighter->plastic.range());
+  ends.normal_elastic = Both(ends.normal_elastic, tighter->elastic.range());
+  ends.tangential_plastic = Both(ends.tangential_plastic, along(tighter->drag_plastic));
+  ends.tangential_elastic = Both(ends.tangential_elastic, along(tighter->drag_elastic));
   return ends;
 }
 

@@ -10,15 +10,6 @@ Interval AtEnds(const Interval& x, Function function) {
   return Hull(function(Interval(x.lower)), function(Interval(x.upper)));
 }
 
-// Gives mu_hat the sign of b/a; `ahead` is its range for a contact ahead of the pin, b/a > 0.
-Interval OnItsSide(const Interval& ahead, const Interval& slope) {
-  Interval sides = kNothing;
-  if (slope.upper > 0.0) sides = Hull(sides, ahead);
-  if (slope.lower < 0.0) sides = Hull(sides, -ahead);
-  if (Contains(slope, 0.0)) sides = Hull(sides, 0.0);
-  return sides;
-}
-
 // Returns |w-| for the scenes that approach.
 Interval ApproachRate(const PendulumBox& box) {
   if (box.a.lower >= 0.0) return AtLeast(-box.omega_minus, 0.0);
@@ -27,6 +18,14 @@ Interval ApproachRate(const PendulumBox& box) {
 }
 
 }  // namespace
+
+Interval OnItsSide(const Interval& ahead, const Interval& slope) {
+  Interval sides = kNothing;
+  if (slope.upper > 0.0) sides = Hull(sides, ahead);
+  if (slope.lower < 0.0) sides = Hull(sides, -ahead);
+  if (Contains(slope, 0.0)) sides = Hull(sides, 0.0);
+  return sides;
+}
 
 PlanarEnds EncloseEnds(const PendulumBox& box) {
   PlanarEnds ends;

@@ -11,12 +11,6 @@ namespace {
 
 Interval Join(const Interval& x, const Interval& y) { return IsEmpty(x) ? y : IsEmpty(y) ? x : Hull(x, y); }
 
-// Returns the members that two enclosures of one number have in common; rounding never leaves them without any.
-Interval Both(const Interval& x, const Interval& y) {
-  const Interval both = Intersect(x, y);
-  return IsEmpty(both) ? x : both;
-}
-
 // Returns the hull of a function that is monotone in each argument, from its values at the ends of both.
 template <typename Function>
 Interval AtVertices(const Interval& x, const Interval& y, Function function) {

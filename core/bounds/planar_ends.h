@@ -13,6 +13,12 @@ namespace ricochet {
 
 inline constexpr Interval kNothing = {rounding::kInfinity, -rounding::kInfinity};
 
+// Returns the members that two enclosures of one number have in common; rounding never leaves them without any.
+inline Interval Both(const Interval& x, const Interval& y) {
+  const Interval both = Intersect(x, y);
+  return IsEmpty(both) ? x : both;
+}
+
 // Each contains the values of all scenes; kNothing where there are none.
 struct PlanarEnds {
   Interval newton = kNothing, poisson = kNothing;  // The elastic impact's coefficients, 0 for scenes that lock.
@@ -24,6 +30,10 @@ struct PlanarEnds {
 PlanarEnds EncloseEnds(const PlanarBox& box);
 PlanarEnds EncloseEnds(const AffinePlanarBox& form);
 PlanarEnds EncloseEnds(const PendulumBox& box);
+
+// Gives mu_hat of a pendulum the sign of b/a; `ahead` is its range for a contact ahead of the pin, b/a > 0. Only the
+// signs in `slope` count.
+Interval OnItsSide(const Interval& ahead, const Interval& slope);
 
 }  // namespace ricochet
 
