@@ -25,7 +25,10 @@ DrivenFields::DrivenFields(const std::vector<std::string>& paths, NameOf name_of
           place, Found(paths[i]), absl::StrCat("not drive ", target, ", which ", name_of(other->second), " drives")));
     }
     // An angle sets two numbers from the base scene's distance, so their base values must be right.
-    if (field->sets().size() == 1) driven_.insert(paths[i]);
+    if (paths[i] != kPhi) {
+      driven_.insert(paths[i]);
+      driven_.insert(field->sets().begin(), field->sets().end());
+    }
     fields_.push_back(*std::move(field));
   }
 }

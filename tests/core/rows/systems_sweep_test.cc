@@ -207,6 +207,21 @@ TEST(SystemsSweepTest, ARuleBetweenFieldsIsAMatterOfEachPointWhereAnAxisDrivesOn
   EXPECT_FALSE(FailureOf({.grid = {.scene = With(matrix), .axes = {friction}}, .columns = {"energy_change_j"}}).ok());
 }
 
+TEST(SystemsSweepTest, DrivingEitherOfTwoMirroredEntriesOfAMassMatrixCuresBoth) {
+  Mechanism arm = {.jacobian = {1.0, 0.0, 0.0, 1.0}, .rates = {0.3, -1.0}};
+  const std::vector<double> indefinite = {2.0, 3.0, 3.0, 1.2}, skew = {2.0, 3.0, 0.5, 1.2};
+  for (const std::vector<double>& mass : {indefinite, skew}) {
+    arm.mass_matrix = mass;
+    for (const char* path : {"mechanism.mass_matrix[1]", "mechanism.mass_matrix[2]"}) {
+      const Axis entry = {path, ListValues{{3.0, 0.4}}};
+      const Points points = RunAll({.grid = {.scene = With(arm), .axes = {entry}}, .columns = {"energy_change_j"}});
+      ASSERT_EQ(points.regimes.size(), 2) << path;
+      EXPECT_EQ(points.regimes[0], Regime::kInvalid) << path;
+      EXPECT_NE(points.regimes[1], Regime::kInvalid) << path;
+    }
+  }
+}
+
 TEST(SystemsSweepTest, ARuleBetweenFieldsDoesNotExcuseANumberThatBreaksItsOwn) {
   PlanarContact contact = Contact();
   contact.w_tn_per_kg = std::nan("");
