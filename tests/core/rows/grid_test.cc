@@ -144,6 +144,17 @@ TEST(GridTest, ZippedAxesMustBeEquallyLong) {
   EXPECT_THAT(violations[0].description, testing::AllOf(testing::HasSubstr("3"), testing::HasSubstr("4")));
 }
 
+TEST(GridTest, PathsOfZippedAxesAreEscapedAndCutInTheReason) {
+  Grid grid = {.axes = {Lin(0, 1, 3), Lin(0, 1, 4)}, .combination = Combination::kZip};
+  grid.axes[0].path = "friction\x1ependulum.a_m\x1f= 1";  // The separators of a list of violations.
+  grid.axes[1].path = std::string(1000, 'x');
+  const std::vector<Violation> violations = ViolationsOf(InvalidRequest(ValidateAxes(grid)));
+  ASSERT_THAT(FieldsOf(violations), ElementsAre("axes"));
+  EXPECT_THAT(violations[0].description,
+              testing::HasSubstr("3 values of friction\\036pendulum.a_m\\037= 1 and 4 of x"));
+  EXPECT_LT(violations[0].description.size(), 200);
+}
+
 TEST(GridTest, UnknownCombinationIsRejected) {
   EXPECT_THAT(FieldsOf(ValidateAxes({.axes = {Lin(0, 1, 3)}, .combination = static_cast<Combination>(9)})),
               ElementsAre("combination"));
