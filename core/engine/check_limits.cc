@@ -73,7 +73,7 @@ void SizeCheck::Coordinates(const Mechanism& mechanism, int64_t contacts) {
   const auto rows = [](size_t numbers, int64_t per_row) {
     return (static_cast<int64_t>(numbers) + per_row - 1) / per_row;
   };
-  const int64_t most = std::min(limits_.max_links, int64_t{1'000'000});
+  const int64_t most = std::clamp<int64_t>(limits_.max_links, 1, 1'000'000);
   if (rows(mechanism.mass_matrix.size(), most) > most) {
     Exceeded("mechanism.mass_matrix",
              absl::StrCat("has ", mechanism.mass_matrix.size(), " entries: must have at most ", most * most,

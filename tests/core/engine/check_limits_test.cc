@@ -299,6 +299,13 @@ TEST(CheckLimits, EveryFieldThatIsTooLargeIsNamed) {
   EXPECT_EQ(ViolationsOf(refused).size(), 3) << refused;
 }
 
+TEST(CheckLimits, AMechanismIsRefusedWhereNoLinkIsAllowed) {
+  Limits limits;
+  limits.max_links = 0;
+  const absl::Status refused = LocalSolver(limits).Solve({.scene = ArmScene(1)}).status();
+  EXPECT_EQ(ReasonOf(refused), ErrorReason::kLimitExceeded) << refused;
+}
+
 TEST(Limits, NoneIsTheLargestNumberForEachNamedLimit) {
   const Limits none = Limits::None();
   for (const NamedLimit& limit : kLimits) {
