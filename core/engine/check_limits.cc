@@ -59,33 +59,25 @@ class SizeCheck {
 
 // The links of a linkage, or the coordinates of a mechanism; any other system counts as one.
 int64_t LinksOf(const System& system) {
-  if (const auto* const mechanism = std::get_if<Mechanism>(&system)) {
-    return std::max<int64_t>(static_cast<int64_t>(mechanism->rates.size()), 1);
-  }
-  const auto* const linkage = std::get_if<Linkage>(&system);
-  return linkage == nullptr ? 1 : std::max<int64_t>(static_cast<int64_t>(linkage->links.size()), 1);
+  size_t links = 1;
+  if (const auto* const mechanism = std::get_if<Mechanism>(&system)) links = mechanism->rates.size();
+  if (const auto* const linkage = std::get_if<Linkage>(&system)) links = linkage->links.size();
+  return static_cast<int64_t>(std::max<size_t>(links, 1));
 }
 
 // Time grows with the cube of the coordinates, and so with the lists of numbers that they bring along.
 void SizeCheck::Coordinates(const Mechanism& mechanism, int64_t contacts) {
   Entries("mechanism.rates", mechanism.rates.size(), &Limits::max_links);
   Entries("mechanism.kept_coordinates", mechanism.kept_coordinates.size(), &Limits::max_links);
-  const auto rows = [](size_t numbers, int64_t per_row) {
-    return (static_cast<int64_t>(numbers) + per_row - 1) / per_row;
-  };
   const int64_t most = std::clamp<int64_t>(limits_.max_links, 1, 1'000'000);
-  if (rows(mechanism.mass_matrix.size(), most) > most) {
-    Exceeded("mechanism.mass_matrix",
-             absl::StrCat("has ", mechanism.mass_matrix.size(), " entries: must have at most ", most * most,
-                          ", the square of the limit"),
+  const auto check = [&](const char* field, size_t entries, int64_t most_entries, const auto&... share) {
+    if (static_cast<int64_t>(entries) <= most_entries) return;
+    Exceeded(field,
+             absl::StrCat("has ", entries, " entries: must have at most ", most_entries, ", ", share..., " the limit"),
              &Limits::max_links);
-  }
-  if (rows(mechanism.jacobian.size(), 3 * contacts) > most) {
-    Exceeded("mechanism.jacobian",
-             absl::StrCat("has ", mechanism.jacobian.size(), " entries: must have at most ", 3 * contacts * most, ", ",
-                          contacts == 1 ? "three" : absl::StrCat(3 * contacts), " times the limit"),
-             &Limits::max_links);
-  }
+  };
+  check("mechanism.mass_matrix", mechanism.mass_matrix.size(), most * most, "the square of");
+  check("mechanism.jacobian", mechanism.jacobian.size(), 3 * contacts * most, 3 * contacts, " times");
 }
 
 void SizeCheck::Scene(const ricochet::Scene& scene) {
