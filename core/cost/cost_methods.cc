@@ -120,10 +120,11 @@ class PlanarStudy {
 
   void AddOnePiece() {
     const sliding::Problem<1> sliding_problem = SlidingProblemOf(problem_);
-    const auto choice = [this](Model model) { return ChoosePlanar(problem_, physics_, DemandFor(model)); };
-    // A pendulum has a frictionless form of its own.
-    if (!closed_form_.has_value()) AddFrictionless(sliding_problem, choice(Model::kFrictionless), study_.methods);
-    AddSliding(sliding_problem, choice(Model::kSliding), study_.methods);
+    for (const Model model : {Model::kFrictionless, Model::kSliding}) {
+      // A pendulum has a frictionless form of its own.
+      if (model == Model::kFrictionless && closed_form_.has_value()) continue;
+      AddStraight(model, sliding_problem, ChoosePlanar(problem_, physics_, DemandFor(model)), study_.methods);
+    }
   }
 
   // Finite forces do not act in a scene without a spring, but they act with the springs that the study gives it.
@@ -152,9 +153,9 @@ StudiedScene StudySpatial(const Scene& scene, const SpatialReduction& reduction,
       .directions = 2};
   if (problem.v0 < 0.0) {
     const sliding::Problem<2> sliding_problem = SlidingProblemOf(problem);
-    const auto choice = [&problem](Model model) { return ChooseSpatial(problem, DemandFor(model)); };
-    AddFrictionless(sliding_problem, choice(Model::kFrictionless), study.methods);
-    AddSliding(sliding_problem, choice(Model::kSliding), study.methods);
+    for (const Model model : {Model::kFrictionless, Model::kSliding}) {
+      AddStraight(model, sliding_problem, ChooseSpatial(problem, DemandFor(model)), study.methods);
+    }
   }
   AddSpatial(problem, study.truth, study.methods);
   return study;

@@ -51,11 +51,10 @@ std::string NameOf(Arithmetic arithmetic);
 void AddClosedForms(const pendulum::Problem& problem, const ContactPhysics& physics, const ReferencePointer& exact,
                     Methods& methods);
 
-// Paths of one piece. `choice` is the plan's for DemandFor the model; no method is added if it took another model.
+// Paths of one piece: the model is kFrictionless or kSliding. `choice` is the plan's for DemandFor the model; no method
+// is added if it took another model.
 template <size_t kTangential>
-void AddFrictionless(const sliding::Problem<kTangential>& problem, const Choice& choice, Methods& methods);
-template <size_t kTangential>
-void AddSliding(const sliding::Problem<kTangential>& problem, const Choice& choice, Methods& methods);
+void AddStraight(Model model, const sliding::Problem<kTangential>& problem, const Choice& choice, Methods& methods);
 
 // The planar model. `reduction_error` is what the rounding of W adds to its claims.
 void AddPlanar(const planar::Problem& problem, const ContactPhysics& physics, const ReferencePointer& exact,

@@ -51,36 +51,6 @@ NewtonCoefficientOf NewtonOf(const pendulum::Problem& problem, Stopped stopped) 
   return {.value = Exactly(pendulum::Solve(problem)[pendulum::Output::kNewton])};
 }
 
-template <size_t kTangential>
-ReferenceVelocity Sliding(const sliding::Problem<kTangential>& problem, double mu) {
-  // e = u0/|u0|
-  std::array<Wide, kTangential> e;
-  e.fill(Exactly(0.0));
-  if (mu > 0.0) {
-    Wide square = Exactly(0.0);
-    for (const double u : problem.u0) square = square + Exactly(u) * Exactly(u);
-    const Wide inverse = Inverse(Sqrt(square));
-    for (size_t i = 0; i < kTangential; ++i) e[i] = Exactly(problem.u0[i]) * inverse;
-  }
-  const auto wtn = problem.Wtn();
-  // f' = -mu e, v' = Wnn - mu wtn . e
-  Wide slope = Exactly(problem.Wnn());
-  for (size_t i = 0; i < kTangential; ++i) slope = slope - Exactly(mu) * Exactly(wtn[i]) * e[i];
-  const Wide c = Exactly(problem.coefficient);
-  const Wide v0 = Exactly(problem.v0);
-  const Wide tau1 = (Exactly(1.0) + c) * -v0 / slope;
-  ReferenceVelocity exact = {.of = {Exactly(0.0), Exactly(0.0), -c * v0}, .error = kWide, .source = ""};
-  const auto wtt = [&problem](size_t i, size_t k) {
-    return Exactly(kTangential == 1 ? problem.w[0] : problem.w[i + k == 2 ? 3 : i + k]);
-  };
-  for (size_t i = 0; i < kTangential; ++i) {
-    Wide change = Exactly(wtn[i]);
-    for (size_t k = 0; k < kTangential; ++k) change = change - Exactly(mu) * wtt(i, k) * e[k];
-    exact.of[i] = Exactly(problem.u0[i]) + change * tau1;
-  }
-  return exact;
-}
-
 }  // namespace
 
 ReferenceVelocity ReferenceAt(const Velocity3& velocity, double error, std::string source) {
@@ -123,16 +93,37 @@ ReferenceVelocity ExactRigid(const planar::Problem& problem, Stopped stopped) {
 
 template <size_t kTangential>
 ReferenceVelocity ExactSliding(const sliding::Problem<kTangential>& problem) {
-  return Sliding(problem, problem.mu);
+  const double mu = problem.mu;
+  // e = u0/|u0|
+  std::array<Wide, kTangential> e;
+  e.fill(Exactly(0.0));
+  if (mu > 0.0) {
+    Wide square = Exactly(0.0);
+    for (const double u : problem.u0) square = square + Exactly(u) * Exactly(u);
+    const Wide inverse = Inverse(Sqrt(square));
+    for (size_t i = 0; i < kTangential; ++i) e[i] = Exactly(problem.u0[i]) * inverse;
+  }
+  const auto wtn = problem.Wtn();
+  // f' = -mu e, v' = Wnn - mu wtn . e
+  Wide slope = Exactly(problem.Wnn());
+  for (size_t i = 0; i < kTangential; ++i) slope = slope - Exactly(mu) * Exactly(wtn[i]) * e[i];
+  const Wide c = Exactly(problem.coefficient);
+  const Wide v0 = Exactly(problem.v0);
+  const Wide tau1 = (Exactly(1.0) + c) * -v0 / slope;
+  ReferenceVelocity exact = {.of = {Exactly(0.0), Exactly(0.0), -c * v0}, .error = kWide, .source = ""};
+  const auto wtt = [&problem](size_t i, size_t k) {
+    return Exactly(kTangential == 1 ? problem.w[0] : problem.w[i + k == 2 ? 3 : i + k]);
+  };
+  for (size_t i = 0; i < kTangential; ++i) {
+    Wide change = Exactly(wtn[i]);
+    for (size_t k = 0; k < kTangential; ++k) change = change - Exactly(mu) * wtt(i, k) * e[k];
+    exact.of[i] = Exactly(problem.u0[i]) + change * tau1;
+  }
+  return exact;
 }
-template <size_t kTangential>
-ReferenceVelocity ExactFrictionless(const sliding::Problem<kTangential>& problem) {
-  return Sliding(problem, 0.0);
-}
+
 template ReferenceVelocity ExactSliding(const sliding::Problem<1>& problem);
 template ReferenceVelocity ExactSliding(const sliding::Problem<2>& problem);
-template ReferenceVelocity ExactFrictionless(const sliding::Problem<1>& problem);
-template ReferenceVelocity ExactFrictionless(const sliding::Problem<2>& problem);
 
 ReferenceVelocity ExactFrictionless(const pendulum::Problem& problem) {
   const Wide omega = Exactly(problem.omega_minus);

@@ -44,11 +44,11 @@ ReferenceVelocity ExactRigid(const planar::Problem& problem, Stopped stopped);
 // and the velocity lies in its range.
 Scene CertifiableScene(const planar::Problem& problem);
 
-// Slip along u0 that is taken to go on to the end, and no friction at all.
+// Slip along u0 that is taken to go on to the end; with mu = 0 there is no friction at all.
 template <size_t kTangential>
 ReferenceVelocity ExactSliding(const sliding::Problem<kTangential>& problem);
-template <size_t kTangential>
-ReferenceVelocity ExactFrictionless(const sliding::Problem<kTangential>& problem);
+
+// No friction.
 ReferenceVelocity ExactFrictionless(const pendulum::Problem& problem);
 
 ReferenceVelocity ExactFirstOrder(const pendulum::Problem& problem);

@@ -20,30 +20,20 @@ Kernel MakeSlidingKernel(const sliding::Problem<kTangential>& problem, double cl
 }  // namespace
 
 template <size_t kTangential>
-void AddFrictionless(const sliding::Problem<kTangential>& problem, const Choice& without, Methods& methods) {
-  if (without.model != Model::kFrictionless) return;
-  methods.push_back(
-      {.name = "frictionless",
-       .method = {.model = Model::kFrictionless, .arithmetic = Arithmetic::kPlain},
-       .kernel = MakeSlidingKernel(problem, without.one_piece_errors.velocity, sliding::SolveFrictionless<kTangential>),
-       .claimed_modelling = without.neglected,
-       .exact = MakeReference([problem](Stopped) { return ExactFrictionless(problem); })});
+void AddStraight(Model model, const sliding::Problem<kTangential>& problem, const Choice& choice, Methods& methods) {
+  if (choice.model != model) return;
+  const bool slides = model == Model::kSliding;
+  const auto solve = slides ? sliding::Solve<kTangential> : sliding::SolveFrictionless<kTangential>;
+  sliding::Problem<kTangential> own = problem;
+  if (!slides) own.mu = 0.0;
+  methods.push_back({.name = slides ? "sliding" : "frictionless",
+                     .method = {.model = model, .arithmetic = Arithmetic::kPlain},
+                     .kernel = MakeSlidingKernel(problem, choice.one_piece_errors.velocity, solve),
+                     .claimed_modelling = choice.neglected,
+                     .exact = MakeReference([own](Stopped) { return ExactSliding(own); })});
 }
 
-template <size_t kTangential>
-void AddSliding(const sliding::Problem<kTangential>& problem, const Choice& without, Methods& methods) {
-  if (without.model != Model::kSliding) return;
-  methods.push_back(
-      {.name = "sliding",
-       .method = {.model = Model::kSliding, .arithmetic = Arithmetic::kPlain},
-       .kernel = MakeSlidingKernel(problem, without.one_piece_errors.velocity, sliding::Solve<kTangential>),
-       .claimed_modelling = without.neglected,
-       .exact = MakeReference([problem](Stopped) { return ExactSliding(problem); })});
-}
-
-template void AddFrictionless(const sliding::Problem<1>&, const Choice&, Methods&);
-template void AddFrictionless(const sliding::Problem<2>&, const Choice&, Methods&);
-template void AddSliding(const sliding::Problem<1>&, const Choice&, Methods&);
-template void AddSliding(const sliding::Problem<2>&, const Choice&, Methods&);
+template void AddStraight(Model, const sliding::Problem<1>&, const Choice&, Methods&);
+template void AddStraight(Model, const sliding::Problem<2>&, const Choice&, Methods&);
 
 }  // namespace ricochet
