@@ -1,12 +1,18 @@
 #include "ricochet/client.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "client/answer_shape.h"
 #include "client/attempts.h"
 #include "client/batch_session.h"
@@ -48,6 +54,50 @@ std::optional<SweepRequest> Divisible(const SweepRequest& request) {
   whole.end_index = request.end_index.value_or(points);
   const bool has_points = whole.first_index >= 0 && whole.first_index < *whole.end_index && *whole.end_index <= points;
   if (!has_points) return std::nullopt;
+  return whole;
+}
+
+// Adds `first` to the places of the states that a status names.
+absl::Status ShiftStates(const absl::Status& status, size_t first) {
+  std::vector<Violation> violations = ViolationsOf(status);
+  for (Violation& violation : violations) {
+    absl::string_view rest = violation.field;
+    size_t place = 0;
+    if (!absl::ConsumePrefix(&rest, "states[")) continue;
+    const size_t end = std::min(rest.find(']'), rest.size());
+    if (!absl::SimpleAtoi(rest.substr(0, end), &place)) continue;
+    violation.field = absl::StrCat("states[", place + first, rest.substr(end));
+  }
+  return violations.empty() ? status : WithViolations(status, violations);
+}
+
+// Asks for the states part by part, halving the parts until the server takes them.
+absl::StatusOr<MultiContactResponse> AskInParts(
+    const MultiContactRequest& request,
+    absl::FunctionRef<absl::StatusOr<MultiContactResponse>(const MultiContactRequest&)> ask) {
+  MultiContactRequest part = request;
+  size_t size = request.states.size() / 2;
+  MultiContactResponse whole;
+  while (whole.answers.size() < request.states.size()) {
+    const size_t first = whole.answers.size();
+    const auto from = request.states.begin() + static_cast<std::ptrdiff_t>(first);
+    const size_t count = std::min(size, request.states.size() - first);
+    part.states.assign(from, from + static_cast<std::ptrdiff_t>(count));
+    absl::StatusOr<MultiContactResponse> response = ask(part);
+    if (ReasonOf(response.status()) == ErrorReason::kLimitExceeded && count > 1) {
+      size = count / 2;
+      continue;
+    }
+    if (!response.ok()) return ShiftStates(response.status(), first);
+    if (first > 0 && response->engine.fingerprint != whole.engine.fingerprint) {
+      return absl::FailedPreconditionError(absl::StrCat("the answers before states[", first, "] come from the engine ",
+                                                        whole.engine.fingerprint, ", those from it on ", "from ",
+                                                        response->engine.fingerprint,
+                                                        ": they may differ in their last bits and must not be mixed"));
+    }
+    whole.engine = response->engine;
+    std::move(response->answers.begin(), response->answers.end(), std::back_inserter(whole.answers));
+  }
   return whole;
 }
 
@@ -174,7 +224,12 @@ absl::StatusOr<FitResponse> Client::DoFit(const FitRequest& request, const CallO
 
 absl::StatusOr<MultiContactResponse> Client::DoMultiContact(const MultiContactRequest& request,
                                                             const CallOptions& options) const {
-  return connection_->Ask(&Stub::MultiContact, request, options);
+  const auto ask = [&](const MultiContactRequest& part) {
+    return connection_->Ask(&Stub::MultiContact, part, options);
+  };
+  absl::StatusOr<MultiContactResponse> response = ask(request);
+  const bool is_too_large = ReasonOf(response.status()) == ErrorReason::kLimitExceeded && request.states.size() > 1;
+  return is_too_large ? AskInParts(request, ask) : response;
 }
 
 absl::StatusOr<BatchSession> Client::DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const {

@@ -198,7 +198,8 @@ void CheckRange(const std::string& field, const MultiContactScene& scene, const 
   check.Require(outside <= most, [&] {
     const std::string share = std::isfinite(outside) ? absl::StrCat("a share of ", ShortestDecimal(outside)) : "a part";
     return MakeViolation(field, absl::StrCat("has ", share, " beside the range of W"),
-                         "lie in it, no impulse changes the rest");
+                         absl::StrCat("lie in it, no impulse changes the rest",
+                                      is_stated ? "; M and J keep what the rounding of W loses" : ""));
   });
 }
 

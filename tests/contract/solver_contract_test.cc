@@ -100,6 +100,21 @@ TEST_P(SolverContract, AnswersEachStateOfSeveralContacts) {
   EXPECT_EQ(response->answers[2].orders.front().orders.front(), "none");
 }
 
+// One call of a server takes 512 states of two contacts.
+TEST_P(SolverContract, AnswersMoreStatesThanOneCallTakes) {
+  MultiContactRequest request = {.scene = FallingBlock(1.0, 0.5), .methods = {MultiContactMethod::kSprings}};
+  for (int i = 0; i < 1300; ++i) request.states.push_back({{0, -0.01 * (i + 1), 0}});
+  const auto response = solver().MultiContact(request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  ASSERT_EQ(response->answers.size(), 1300U);
+  for (int i = 0; i < 1300; ++i) {
+    ASSERT_NEAR(response->answers[static_cast<size_t>(i)].springs->velocity[1], 0.005 * (i + 1), 1e-14) << i;
+  }
+  request.states[1100] = {{1.0}};
+  EXPECT_THAT(ViolationsOf(solver().MultiContact(request).status()),
+              ElementsAre(Field(&Violation::field, testing::StartsWith("states[1100]"))));
+}
+
 TEST_P(SolverContract, ListsAllViolationsOfSeveralContacts) {
   MultiContactRequest request = {.scene = FallingBlock(-1.0, 2.0)};
   request.scene.contacts.back() = {.body = 3, .other_body = 3, .point_m = {0.0}, .normal = {0.0, 0.0}};
