@@ -154,6 +154,34 @@ TEST(HardMultiContactTest, TwoPlasticFeetStrikeWithoutEndAndComeToRestTogether) 
   EXPECT_NEAR(rest.p(3), (0.8 + 0.6 * 1.0) / 0.64, 4e-15);
 }
 
+// All feet let go at one instant, at which nothing moves: no ratio of their coefficients matters.
+TEST(HardMultiContactTest, PlasticFeetThatLandFlatStay) {
+  const std::vector<std::vector<double>> boxes = {{-0.5, 0.0, 0.5}, {-0.5, -0.2, 0.2, 0.5}};
+  std::vector<MultiContactScene> scenes;
+  for (const std::vector<double>& feet : boxes) {
+    MultiContactScene& scene = scenes.emplace_back(FallingBlock(0.5, 0.0));
+    scene.contacts.clear();
+    for (const double x : feet) {
+      scene.contacts.push_back(
+          {.friction = 0.5, .energetic = 0.0, .body = 1, .point_m = {x, 0.0}, .normal = {0.0, 1.0}});
+    }
+  }
+  MultiContactScene& two = scenes.emplace_back(FallingBlock(0.5, 0.0));
+  auto& bodies = std::get<FreeBodies>(two.system).bodies;
+  bodies.push_back(bodies.front());
+  bodies.back().position_m = {5.0, 1.0};
+  for (const double x : {4.5, 5.5}) {
+    two.contacts.push_back({.friction = 0.5, .energetic = 0.0, .body = 2, .point_m = {x, 0.0}, .normal = {0.0, 1.0}});
+  }
+  for (const MultiContactScene& scene : scenes) {
+    const auto response = LocalSolver().MultiContact({.scene = scene, .methods = {MultiContactMethod::kSprings}});
+    ASSERT_TRUE(response.ok()) << response.status();
+    const AttainedOutcome& springs = *response->answers.front().springs;
+    EXPECT_EQ(springs.end, MultiContactEnd::kSeparated);
+    for (const double velocity : springs.velocity) EXPECT_NEAR(velocity, 0.0, 1e-14);
+  }
+}
+
 TEST(HardMultiContactTest, PlasticSpringsAreTheLimitOfSpringsThatAreNearlyPlastic) {
   std::mt19937_64 random(21);
   int compared = 0;

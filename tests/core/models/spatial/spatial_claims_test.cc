@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/claims/claims.h"
 
 namespace ricochet::spatial {
@@ -42,6 +44,22 @@ TEST_P(SpatialClaimsTest, ScenesOfRankTwoDeceiveNobodyAndHaveAnError) {
   PrintClaims("space", "rank two", tally);
   EXPECT_EQ(tally.broken(), 0);
   EXPECT_EQ(tally.unknown(), 0);
+}
+
+// Friction stops slip at once, however large it is, so that it does not make the claims large.
+TEST_P(SpatialClaimsTest, ScenesOfLargeFrictionDeceiveNobodyAndAreWithinTheTolerance) {
+  SceneSource source(kSeed);
+  ClaimTally tally(GetParam());
+  for (int i = 0; i < 2 * kCount; ++i) {
+    Problem problem = source.Typical();
+    problem.mu = problem.mu_static = std::pow(10.0, source.Uniform(1.0, 9.0));
+    problem.tolerance = GetParam();
+    AddClaim(problem, tally);
+  }
+  PrintClaims("space", "rough", tally);
+  EXPECT_EQ(tally.broken(), 0);
+  EXPECT_EQ(tally.unknown(), 0);
+  EXPECT_LE(tally.claimed_above_tolerance(), kCount / 50);
 }
 
 // Steps along the one direction in which slip can change add their rounding, and no more.
