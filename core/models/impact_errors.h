@@ -68,11 +68,16 @@ void SetCoefficientErrors(const ImpactEnd<Tangential>& impact, double v0, Restit
   const double work_c = -impact.work_normal_compression;
   const double f_error = std::is_same_v<Tangential, double> ? errors.f : errors.f * std::sqrt(2.0);
   errors.tangential = ErrorOfQuotient(impact.tangential, f_error, impact.tau1, errors.tau);
+  errors.newton = ErrorOfQuotient(impact.newton, errors.v, -v0, 0.0);
+  if (impact.regime == Regime::kLocked && std::isinf(errors.tau_compression)) {
+    // The true contact may lock a little later, in restitution.
+    errors.poisson = errors.energetic = errors.tau_compression;
+    return;
+  }
   if (impact.regime == Regime::kLocked || coefficient == 0.0) {
     errors.newton = errors.poisson = errors.energetic = 0.0;
     return;
   }
-  errors.newton = ErrorOfQuotient(impact.newton, errors.v, -v0, 0.0);
   errors.poisson = ErrorOfQuotient(1.0 + impact.poisson, errors.tau, tau_c, errors.tau_compression);
   const double square = impact.energetic * impact.energetic;
   const double of_square =

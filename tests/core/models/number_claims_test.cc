@@ -74,6 +74,21 @@ TEST(NumberClaimsOfSpaceTest, AreKeptWhereSlipKeepsAPart) {
   Expect(claims, "part stays", 0.02);
 }
 
+// Friction locks such a contact where compression ends, and rounding decides on which side.
+TEST(NumberClaimsOfSpaceTest, OfCoefficientsAreKeptWhereAContactOfRankTwoLocks) {
+  spatial::SceneSource source(kSeed);
+  NumberClaims claims;
+  for (int i = 0; i < kCount; ++i) {
+    spatial::Problem problem = source.WithDegreesOfFreedom(2);
+    problem.mu = problem.mu_static = std::pow(10.0, source.Uniform(0.0, 9.0));
+    problem.tolerance = i % 2 == 0 ? 1e-6 : 1e-12;
+    spatial::AddNumbers(problem, claims);
+  }
+  EXPECT_EQ(claims.coefficient.broken(), 0) << claims.coefficient.first_broken();
+  EXPECT_EQ(claims.velocity.broken(), 0) << claims.velocity.first_broken();
+  EXPECT_EQ(claims.work.broken(), 0) << claims.work.first_broken();
+}
+
 TEST_P(NumberClaimsTest, OfTheSpatialModelAreKept) {
   for (const double tolerance : {1e-2, 1e-6, 1e-12}) {
     Expect(spatial::NumberClaimsOf(GetParam(), tolerance, kCount, kSeed), "space", GetParam() ? 0.1 : 0.02);

@@ -59,7 +59,7 @@ TEST_P(SpatialClaimsTest, ScenesOfLargeFrictionDeceiveNobodyAndAreWithinTheToler
   PrintClaims("space", "rough", tally);
   EXPECT_EQ(tally.broken(), 0);
   EXPECT_EQ(tally.unknown(), 0);
-  EXPECT_LE(tally.claimed_above_tolerance(), kCount / 50);
+  EXPECT_LE(tally.claimed_above_tolerance(), kCount / 15);
 }
 
 // Steps along the one direction in which slip can change add their rounding, and no more.
