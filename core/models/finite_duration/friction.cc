@@ -9,18 +9,17 @@ namespace {
 double ParticleAcceleration(const ScaledContact& contact, const Mode& mode, const Motion& y, double direction) {
   Mode sliding = mode;
   sliding.friction = SlipTowards(direction);
-  const double share = ParticleShare(contact, mode);
   const Forces forces = ForcesAt(contact, sliding, y);
   const Acceleration rate = AccelerationAt(contact, sliding, forces);
-  const double pull = direction * rate.u + share * rate.v;
+  const double pull = ParticleSpeed(contact, mode, direction, rate.u, rate.v);
   if (forces.normal != 0.0 || pull != 0.0) return pull;
   const Acceleration& slope = contact.SlipSlope(direction);
-  return direction * slope.u + share * slope.v;
+  return ParticleSpeed(contact, mode, direction, slope.u, slope.v);
 }
 
 // True if the particle slides towards `direction`: its speed towards it is positive, or 0 and does not fall.
 bool ParticleSlides(const ScaledContact& contact, const Mode& mode, const Motion& y, double direction) {
-  const double speed = direction * y[kU] + ParticleShare(contact, mode) * y[kV];
+  const double speed = ParticleSpeed(contact, mode, direction, y[kU], y[kV]);
   return speed > 0.0 || (speed == 0.0 && ParticleAcceleration(contact, mode, y, direction) >= 0.0);
 }
 

@@ -21,18 +21,17 @@ void SetRigidGuards(const ScaledContact& contact, const Mode& mode, const Motion
 
 void SetCompliantGuards(const ScaledContact& contact, const Mode& mode, const Motion& y, const Forces& forces,
                         const Acceleration& rate, Guards& guards) {
-  const double share = ParticleShare(contact, mode);
   if (mode.Sticks()) {
     const double cone = contact.mu * forces.normal;
     guards[kUpper] = cone - forces.tangential;
     guards[kLower] = cone + forces.tangential;
-    guards[kUpperExtreme] = y[kU] - share * y[kV];
-    guards[kLowerExtreme] = y[kU] + share * y[kV];
+    guards[kUpperExtreme] = -ParticleSpeed(contact, mode, -1.0, y[kU], y[kV]);
+    guards[kLowerExtreme] = ParticleSpeed(contact, mode, 1.0, y[kU], y[kV]);
     guards[kForceExtreme] = y[kU];
   } else {
     const double sign = SlipSign(mode.friction);
-    guards[kUpper] = sign * y[kU] + share * y[kV];
-    guards[kUpperExtreme] = sign * rate.u + share * rate.v;
+    guards[kUpper] = ParticleSpeed(contact, mode, sign, y[kU], y[kV]);
+    guards[kUpperExtreme] = ParticleSpeed(contact, mode, sign, rate.u, rate.v);
   }
 }
 

@@ -28,8 +28,11 @@ double LoadingCurve(const ScaledContact& contact, double place) {
   return contact.stiffness * std::copysign(Pow(std::fabs(place), 2.0 * contact.exponent), place);
 }
 
-double ParticleShare(const ScaledContact& contact, const Mode& mode) {
-  return contact.mu * contact.ratio_squared * SpringSlope(contact, mode);
+double ParticleSpeed(const ScaledContact& contact, const Mode& mode, double direction, double u, double v) {
+  const double share = contact.mu * contact.ratio_squared * SpringSlope(contact, mode);
+  // Where u follows v, the particle's speed is a multiple of v: it must not vanish a rounding before or after v does.
+  if (contact.coupled) return (direction * contact.wtn + share) * v;
+  return direction * u + share * v;
 }
 
 Motion MotionAtStart(const ScaledContact& contact) {
@@ -93,7 +96,7 @@ Motion RatesAt(const ScaledContact& contact, const Mode& mode, const Motion& y) 
   const bool particle_sticks = contact.compliant && mode.Sticks();
   const double sign = SlipSign(mode.friction);
   const bool particle_slides = contact.compliant && sign != 0.0;
-  const double slip = sign * y[kU] + (particle_slides ? ParticleShare(contact, mode) * y[kV] : 0.0);
+  const double slip = particle_slides ? ParticleSpeed(contact, mode, sign, y[kU], y[kV]) : sign * y[kU];
   Motion rates;
   rates[kPlace] = -y[kV] / pace;
   rates[kU] = acceleration.u * dt;

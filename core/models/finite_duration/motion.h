@@ -57,8 +57,9 @@ struct Forces {
 double SlipSign(FrictionState friction);
 FrictionState SlipTowards(double direction);
 double LoadingCurve(const ScaledContact& contact, double place);
-// The speed of the sliding particle is s u plus this times v.
-double ParticleShare(const ScaledContact& contact, const Mode& mode);
+// The speed, towards `direction`, of a particle that slides, where the contact's velocity is (u, v). Its acceleration
+// follows from that of the contact in the same way.
+double ParticleSpeed(const ScaledContact& contact, const Mode& mode, double direction, double u, double v);
 
 Motion MotionAtStart(const ScaledContact& contact);
 double Indentation(const ScaledContact& contact, const Mode& mode, const Motion& y);

@@ -89,18 +89,27 @@ class PathFollower {
     HandleEvents(fallen);
   }
 
-  // Several guards may fall at once; they are handled in this order.
+  // Several guards may fall at once; they are handled in this order. Where u follows v, a particle stops just where v
+  // reverses, and whether it then sticks is up to the branch that comes next.
   void HandleEvents(const std::array<bool, kModeGuards>& fallen) {
-    if (fallen[kUpper]) ChangeFriction(kUpper);
-    if (fallen[kLower]) ChangeFriction(kLower);
+    const bool reverses_first = ParticleFollowsNormal() && fallen[kReversal];
+    if (!reverses_first) ChangeFrictionAsFallen(fallen);
     if (fallen[kBranchEnd]) EndBranch();
     if (fallen[kTension]) Part();
     if (fallen[kReversal] && path_.how == PathEnd::kUnderway) {
       if (reversals_++ == kReversalBudget) return EndPath(PathEnd::kBudgetUsedUp);
       ReverseNormalVelocity();
     }
+    if (reverses_first && path_.how == PathEnd::kUnderway) ChangeFrictionAsFallen(fallen);
     path_.peaks.Add(contact_, mode_, y_);
   }
+
+  void ChangeFrictionAsFallen(const std::array<bool, kModeGuards>& fallen) {
+    if (fallen[kUpper]) ChangeFriction(kUpper);
+    if (fallen[kLower]) ChangeFriction(kLower);
+  }
+
+  bool ParticleFollowsNormal() const { return contact_.coupled && contact_.compliant; }
 
   // Where v is far below the unit of the tolerance, all that follows from it may be rounding. A time that runs back is.
   bool RunsBack(double time) const {
@@ -169,6 +178,7 @@ class PathFollower {
     if (!at_rest && goes_on) return;
     mode_changed_ = true;
     CutOff(kV);
+    if (ParticleFollowsNormal()) y_[kU] = 0.0;
     const bool compressed =
         mode_.branch == LoadingBranch::kLoading && (!contact_.damped || y_[kPlace] >= mode_.largest_place);
     if (compressed) {

@@ -284,6 +284,40 @@ TEST(FiniteDurationTest, CompliantImpactsAreThoseOfTheTable) {
   log.Check("compliant along t");
 }
 
+// W has rank one with the velocity in its range, so that the particle's speed vanishes just where v does: rounding must
+// not decide which comes first, or on which branch of the spring the particle goes on.
+TEST(FiniteDurationTest, AParticleWhoseSpeedFollowsTheNormalVelocityStopsWhereThatReverses) {
+  planar::SceneSource source(41);
+  for (int i = 0; i < 300; ++i) {
+    planar::Problem rigid = source.RankOne();
+    rigid.mu_static = rigid.mu;
+    rigid.coefficient = source.Uniform(0.05, 0.95);
+    ASSERT_TRUE(rigid.w.UFollowsV(rigid.u0, rigid.v0)) << i;
+    Problem problem = ProblemOf(rigid, LinearSpring{1e4}, 1e-9);
+    problem.ratio_squared = source.Uniform(0.1, 3.0);
+    const Impact impact = Solve(problem);
+    const auto same = WithoutDuration(problem);
+    EXPECT_EQ(impact.regime, same.regime) << i;
+    if (impact.regime == Regime::kWedged) continue;
+    EXPECT_LE(DistanceOf(problem, impact, same.u1, same.v1), impact.error_estimate) << i;
+    for (const TimedInstant& event : impact.events) {
+      EXPECT_TRUE(event.v == 0.0 || std::fabs(event.v) > 1e-9 * std::fabs(rigid.v0)) << i << " at " << event.v;
+    }
+  }
+}
+
+TEST(FiniteDurationTest, AParticleThatTheStifferBranchDrivesOnNeverSticks) {
+  const Problem problem = {
+      .contact = {.w = {1.0, 1.0, 1.0}, .u0 = -1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5, .coefficient = 0.5},
+      .spring = LinearSpring{1e4},
+      .ratio_squared = 1.0};
+  const Impact impact = Solve(problem);
+  EXPECT_EQ(impact.regime, Regime::kSliding);
+  EXPECT_EQ(WithoutDuration(problem).regime, Regime::kSliding);
+  EXPECT_EQ(KindsOf(impact),
+            (std::vector{EventKind::kStart, EventKind::kCompressionEnds, EventKind::kRestitutionEnds}));
+}
+
 // Friction pushes the body back into the surface: v changes its sign three times.
 TEST(FiniteDurationTest, CompressionEndsAtTheLastReversalOfALoadedSpring) {
   const Problem problem = {
