@@ -78,7 +78,7 @@ TEST(NoWorkTest, SlipThatDoesNotTurnIsNotIntegrated) {
   Scene scene = With(ContactInSpace());
   scene.friction.kinetic_coefficient = 0.2;
   EXPECT_GT(CostOf(scene).steps, 0);
-  std::get<SpatialContact>(scene.system).tangential_m_s = {30.0, 18.0};
+  std::get<SpatialContact>(scene.system).tangential_m_s = {3000.0, 1800.0};
   const Cost straight = CostOf(scene, {.relative_tolerance = 0.01});
   EXPECT_EQ(straight.steps, 0);
   EXPECT_EQ(straight.model, Model::kSliding);

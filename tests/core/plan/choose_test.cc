@@ -351,8 +351,8 @@ TEST(ChooseTest, FrictionThatCancelsInTheEndIsSimulated) {
                                      .coefficient = 1.0 / 3.0};
   EXPECT_EQ(ChoosePendulum(problem, {}, {.relative_tolerance = 0.1}).model, Model::kPendulum);
   EXPECT_EQ(ModelOfPendulum(problem, 0.1), Model::kPendulum);
-  // x = 1/2, and the change of tau0 is x/(1 + x).
-  EXPECT_NEAR(PendulumFrictionSize(problem).value, 1.0 / 3.0, 1e-5);
+  // x = 1/2, and the change of Wtt f0 is (b/a) x/(1 + x).
+  EXPECT_NEAR(PendulumFrictionSize(problem).value, 4.0 / 9.0, 1e-5);
 }
 
 TEST(ChooseTest, InSpaceTheModelIsGivenTheBudget) {
@@ -373,7 +373,7 @@ TEST(ChooseTest, InSpaceTheModelIsGivenTheBudget) {
   const Choice straight = ChooseSpatial(problem, {.excluded = {Effect::kSlipTurn}});
   EXPECT_EQ(straight.model, Model::kSliding);
   EXPECT_EQ(straight.neglected, kUnbounded);
-  problem.u0 = {100.0, 60.0};
+  problem.u0 = {10000.0, 6000.0};
   EXPECT_EQ(ChooseSpatial(problem, {.relative_tolerance = 1e-3}).model, Model::kSliding);
 }
 

@@ -72,7 +72,7 @@ TEST(ExplainTest, FrictionSaysWhatItIsInAndWhatItChanges) {
   EXPECT_EQ(plan.model, Model::kFrictionless);
   const PlannedEffect& friction = On(plan, Effect::kFriction);
   EXPECT_EQ(friction.decision, Decision::kNegligible);
-  EXPECT_EQ(friction.reason, "mu |Wtn|/Wnn = 1e-05: friction changes velocities by at most 3.03e-05");
+  EXPECT_EQ(friction.reason, "mu |Wtn|/Wnn = 1e-05: friction changes velocities by at most 0.000152");
 }
 
 TEST(ExplainTest, APendulumSpeaksOfX) {
