@@ -30,7 +30,7 @@ namespace {
 
 constexpr char kExample[] = R"(Example: the elastic pendulum of Lubarda (2009), sec. 4.
   $ ricochet solve --a 0.3 --b 1 --mu 0.1 --energetic 1
-  Rebound: slip reverses at the end of compression, and the contact separates unless its coefficient is 0.
+  Rebound: slip reverses at the end of compression; the contact parts if e > 0.
   Admissible.
 
   Coefficients

@@ -45,7 +45,7 @@ const char* RegimeSentence(Regime regime) {
     case Regime::kFrictionless:
       return "Frictionless: friction is left out, or does not couple normal and tangential motion.";
     case Regime::kRebound:
-      return "Rebound: slip reverses at the end of compression, and the contact separates unless its coefficient is 0.";
+      return "Rebound: slip reverses at the end of compression; the contact parts if e > 0.";
     case Regime::kSliding:
       return "Sliding: slip never stops.";
     case Regime::kStickInCompression:

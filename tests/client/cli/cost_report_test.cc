@@ -105,7 +105,7 @@ TEST(CostReportTest, TheTableShowsWhatEachMethodTakesAndErrsBy) {
   EXPECT_THAT(LineOf(text, "  space 1e-06"), testing::EndsWith(" 12"));
   EXPECT_THAT(LineOf(text, "* frictionless"), HasSubstr("unknown"));
   EXPECT_THAT(LineOf(text, "  compliant"), testing::MatchesRegex("  compliant[ -]+"));
-  EXPECT_THAT(text, HasSubstr("  1e-14 to 0.01      pendulum plain\n"));
+  EXPECT_THAT(text, HasSubstr("  1e-14 to 0.01      pendulum plain, which claims 1.7e-15\n"));
   EXPECT_THAT(text, HasSubstr("  0.1                first order\n"));
   EXPECT_THAT(text, HasSubstr("Answers that err by more than they claim: 1 of 6."));
   EXPECT_THAT(text, HasSubstr("Processor 1, AVX3, GCC 12.2.0; ricochet 0.1.0, engine 0123456789abcdef\n"));
