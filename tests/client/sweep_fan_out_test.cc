@@ -250,7 +250,7 @@ TEST_F(SweepFanOutTest, RefusesToMixEngines) {
 TEST_F(SweepFanOutTest, NamesTheServerWhoseLimitIsTooLow) {
   const ServerProcess strict({"--max-columns", "1"});
   SweepRequest request = MixedSweep(1000 * kPoints);
-  request.columns.push_back("coefficients.poisson");
+  request.columns.emplace_back("coefficients.poisson");
   const CollectedSweep sweep = Collect(FanOutOver({servers_[0].address(), strict.address()}).Sweep(request));
   EXPECT_EQ(ReasonOf(sweep.end), ErrorReason::kLimitExceeded);
   EXPECT_THAT(

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "ricochet/v1/impact_service.pb.h"
 #include "tests/support/processes/temporary_directory.h"
 
@@ -52,7 +53,7 @@ TEST_F(AuthTest, ACallerMayCallWhatItsScopesNameAndNothingElse) {
     methods.push_back("/" + std::string(service.full_name()) + "/" + std::string(service.method(i)->name()));
   }
   for (const std::string& scope : Scopes()) {
-    Open(std::string("lab ") + kAbc + " " + scope + "\nlab.test certificate " + scope);
+    Open(absl::StrCat("lab ", kAbc, " ", scope, "\nlab.test certificate ", scope));
     for (const std::string& method : methods) {
       const bool may = scope == "all" || ScopeOf(method) == scope;
       const StatusCode expected = may ? StatusCode::kOk : StatusCode::kPermissionDenied;
