@@ -326,11 +326,14 @@ class Answerer {
     return sum.value();
   }
 
+  // The size of a velocity with this mobility in the states asked for.
+  double ScaleOf(double mobility) const { return metric_.root_energy * std::sqrt(mobility) * v_scale_; }
+
   // The output in which two outcomes differ most, over its scale.
   Difference Largest(const AttainedOutcome& x, const AttainedOutcome& y) {
     Difference largest;
     for (size_t i = 0; i < Outputs().size(); ++i) {
-      const double scale = metric_.root_energy * std::sqrt(outputs_[i].mobility) * v_scale_;
+      const double scale = ScaleOf(outputs_[i].mobility);
       const double value = std::abs(ValueOf(x, i) - ValueOf(y, i));
       if (scale > 0.0 && value / scale > largest.over_scale) largest = {i, value, value / scale};
     }
@@ -354,8 +357,7 @@ class Answerer {
   // True if the error of a contact velocity is so large that outcomes which differ may seem alike.
   bool IsVague(const AttainedOutcome* outcome) const {
     constexpr double kMostError = 1e-3;
-    const double mobility = sorted_.problem.w.diagonal().maxCoeff();
-    const double most = kMostError * metric_.root_energy * std::sqrt(mobility) * v_scale_;
+    const double most = kMostError * ScaleOf(sorted_.problem.w.diagonal().maxCoeff());
     return std::any_of(outcome->contact_velocity_error_m_s.begin(), outcome->contact_velocity_error_m_s.end(),
                        [most](double error) { return !(error <= most); });
   }
@@ -389,7 +391,7 @@ class Answerer {
     }
     if (is_alone || !approaches) return true;
     for (size_t i = 0; i < answer_.possible.size(); ++i) {
-      const double scale = metric_.root_energy * std::sqrt(outputs_[i].mobility) * v_scale_;
+      const double scale = ScaleOf(outputs_[i].mobility);
       if (answer_.possible[i].upper - answer_.possible[i].lower > kNoWidth * scale) return false;
     }
     return !answer_.possible.empty();

@@ -64,6 +64,9 @@ class Motion {
   double Normal(int i) const { return v_(problem_.N(i)); }
   bool IsClosed(int i) const { return modes_[At(i)].normal != NormalMode::kOpen; }
   bool HasFriction(int i) const { return problem_.laws[At(i)].mu > 0.0; }
+  // True if a contact with friction slips by more than rounding.
+  bool Slides(int i) const { return HasFriction(i) && std::abs(v_(problem_.T(i))) > noise_(problem_.T(i)); }
+  int8_t SlipSign(int i) const { return static_cast<int8_t>(v_(problem_.T(i)) > 0.0 ? 1 : -1); }
 
   // Computes the velocities anew from the impulses, so that their rounding does not add up.
   void Refresh() {
@@ -102,12 +105,11 @@ class Motion {
       if (state_.g[At(i)] > 0.0 || v >= -noise) normals.push_back(NormalMode::kOpen);
       if (state_.g[At(i)] == 0.0 && v <= noise) normals.push_back(NormalMode::kLoading);
     }
-    const double u = v_(problem_.T(i));
-    const bool slides = HasFriction(i) && std::abs(u) > noise_(problem_.T(i));
+    const bool slides = Slides(i);
     std::vector<ContactMode> options;
     for (const NormalMode normal : normals) {
       for (const int8_t slip : {int8_t{0}, int8_t{1}, int8_t{-1}}) {
-        const bool may = slides ? slip == (u > 0.0 ? 1 : -1) : HasFriction(i) || slip == 0;
+        const bool may = slides ? slip == SlipSign(i) : HasFriction(i) || slip == 0;
         if (may) options.push_back({normal, slip});
       }
     }
@@ -122,9 +124,7 @@ class Motion {
   // Finds the modes in which every condition has the right sign, and the flow in them.
   void FindModes() {
     for (int i = 0; i < k_; ++i) {
-      if (!HasFriction(i)) continue;
-      const double u = v_(problem_.T(i));
-      if (std::abs(u) > noise_(problem_.T(i))) modes_[At(i)].slip = static_cast<int8_t>(u > 0.0 ? 1 : -1);
+      if (Slides(i)) modes_[At(i)].slip = SlipSign(i);
     }
     const int most_changes = 8 * k_ + 8;
     for (int change = 0; change < most_changes; ++change) {
@@ -208,8 +208,7 @@ class Motion {
   bool ComesToRest(std::vector<int>& falling) const {
     for (size_t n = 0; n < falling.size(); ++n) {
       const int i = falling[n];
-      const bool slips = HasFriction(i) && std::abs(v_(problem_.T(i))) > noise_(problem_.T(i));
-      if (problem_.laws[At(i)].e > 0.0 || slips || std::abs(Normal(i)) > noise_(problem_.N(i))) return false;
+      if (problem_.laws[At(i)].e > 0.0 || Slides(i) || std::abs(Normal(i)) > noise_(problem_.N(i))) return false;
       for (int j = 0; j < k_; ++j) {
         const bool acts = flow_->NormalByForce(i, j) != 0.0 || flow_->NormalByForce(j, i) != 0.0;
         if (IsClosed(j) && acts && std::find(falling.begin(), falling.end(), j) == falling.end()) falling.push_back(j);
