@@ -10,6 +10,7 @@
 #include "client/call_context.h"
 #include "client/chunk_checker.h"
 #include "client/stream_call.h"
+#include "proto/wire/status.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/error.h"
 
@@ -36,8 +37,7 @@ int64_t PointBytes(const SweepRequest& request) {
 // Returns the status with another message and all that it carries.
 absl::Status WithMessage(const absl::Status& from, const std::string& message) {
   absl::Status status(from.code(), message);
-  from.ForEachPayload(
-      [&status](absl::string_view type, const absl::Cord& payload) { status.SetPayload(type, payload); });
+  CopyPayloads(from, status);
   return status;
 }
 

@@ -174,11 +174,11 @@ Error Fitted(const Error& error) {
   return cut;
 }
 
+}  // namespace
+
 void CopyPayloads(const absl::Status& from, absl::Status& to) {
   from.ForEachPayload([&](absl::string_view url, const absl::Cord& payload) { to.SetPayload(url, payload); });
 }
-
-}  // namespace
 
 grpc::Status ToGrpcStatus(const absl::Status& status) {
   if (status.ok()) return grpc::Status::OK;

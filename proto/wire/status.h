@@ -24,6 +24,9 @@ grpc::Status ToGrpcStatus(const absl::Status& status);
 // build does not know becomes ErrorReason::kUnspecified; violations without a reason mean kInvalidRequest.
 absl::Status FromGrpcStatus(const grpc::Status& status);
 
+// Adds to a status what another one carries besides its code and message.
+void CopyPayloads(const absl::Status& from, absl::Status& to);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_PROTO_WIRE_STATUS_H_
