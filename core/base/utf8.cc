@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
+
 namespace ricochet {
 
 size_t Utf8Length(std::string_view text, size_t i) {
@@ -31,6 +34,10 @@ std::string Printable(std::string_view text) {
     }
   }
   return printable;
+}
+
+std::string Excerpt(const std::string& text) {
+  return absl::StrCat(absl::CEscape(text.substr(0, kMostExcerpt)), text.size() > kMostExcerpt ? "..." : "");
 }
 
 }  // namespace ricochet

@@ -16,6 +16,12 @@ size_t Utf8Length(std::string_view text, size_t i);
 // and a line feed: XML can have neither.
 std::string Printable(std::string_view text);
 
+inline constexpr size_t kMostExcerpt = 80;
+
+// Returns the first kMostExcerpt bytes of a text, with escapes for all that is not printable ASCII, and "..." where
+// there are more.
+std::string Excerpt(const std::string& text);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CORE_BASE_UTF8_H_

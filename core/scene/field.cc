@@ -4,12 +4,12 @@
 #include <functional>
 #include <utility>
 
-#include "absl/strings/escaping.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
 #include "core/base/nearest.h"
+#include "core/base/utf8.h"
 #include "core/numerics/elementary.h"
 #include "core/scene/check.h"
 
@@ -146,10 +146,8 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
 }
 
 std::string Found(const std::string& text) {
-  constexpr size_t kMostCharacters = 80;
-  if (text.size() <= kMostCharacters) return absl::StrCat("= \"", absl::CEscape(text), "\"");
-  const std::string cut = text.substr(0, kMostCharacters);
-  return absl::StrCat("= \"", absl::CEscape(cut), "...\" (", text.size(), " bytes)");
+  return absl::StrCat("= \"", Excerpt(text), "\"",
+                      text.size() > kMostExcerpt ? absl::StrCat(" (", text.size(), " bytes)") : "");
 }
 
 std::vector<std::string> FieldPaths(const Scene& scene) {

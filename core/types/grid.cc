@@ -3,10 +3,10 @@
 #include <cmath>
 #include <optional>
 
-#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/counted.h"
 #include "core/base/invariant.h"
+#include "core/base/utf8.h"
 
 namespace ricochet {
 namespace {
@@ -58,16 +58,15 @@ void CheckValues(size_t i, const Logspace& logspace, std::vector<Violation>& vio
 // Finds why axes that are each valid by themselves make no grid. Their paths are text of the caller, which is escaped,
 // and cut if it is long.
 std::optional<Violation> CheckCombination(const Grid& grid) {
-  constexpr size_t kMostCharacters = 80;
-  const auto path_of = [](const Axis& axis) { return absl::CEscape(axis.path.substr(0, kMostCharacters)); };
   switch (grid.combination) {
     case Combination::kZip:
       for (const Axis& axis : grid.axes) {
         if (AxisCount(axis) == AxisCount(grid.axes.front())) continue;
-        return MakeViolation("axes",
-                             absl::StrCat("have ", Counted(AxisCount(grid.axes.front()), "value"), " of ",
-                                          path_of(grid.axes.front()), " and ", AxisCount(axis), " of ", path_of(axis)),
-                             "be equally long to be zipped");
+        return MakeViolation(
+            "axes",
+            absl::StrCat("have ", Counted(AxisCount(grid.axes.front()), "value"), " of ",
+                         Excerpt(grid.axes.front().path), " and ", AxisCount(axis), " of ", Excerpt(axis.path)),
+            "be equally long to be zipped");
       }
       return std::nullopt;
     case Combination::kUnspecified:

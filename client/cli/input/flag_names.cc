@@ -11,6 +11,7 @@
 #include "absl/strings/strip.h"
 #include "client/cli/input/connection_input.h"
 #include "client/cli/input/scene_input.h"
+#include "core/base/utf8.h"
 #include "ricochet/error.h"
 
 namespace ricochet::cli {
@@ -58,10 +59,8 @@ std::string AsGiven(const CLI::App& command, const std::string& flag, const std:
   size_t place = 0;
   const bool is_one_of_several = absl::EndsWith(beginning, "[") && absl::ConsumePrefix(&path, beginning) &&
                                  absl::SimpleAtoi(path.substr(0, path.find(']')), &place);
-  if (!is_one_of_several || place >= texts.size()) return flag;
-  constexpr size_t kMost = 60;  // A list of values may be longer than a screen.
-  const std::string& text = texts[place];
-  return absl::StrCat(flag, " ", text.size() > kMost ? text.substr(0, kMost) + "..." : text);
+  // A list of values may be longer than a screen.
+  return is_one_of_several && place < texts.size() ? absl::StrCat(flag, " ", Excerpt(texts[place])) : flag;
 }
 
 void NameFlag(const CLI::App& command, Violation& violation) {

@@ -258,8 +258,10 @@ std::vector<BadInput> Sweeps() {
       {Axis("pendulum.a_m=lin:1:2:3.5"), "--axis pendulum.a_m, COUNT = 3.5: must be a whole number", ""},
       {Axis("pendulum.a_m=lin:1:2:0"),
        "--axis pendulum.a_m=lin:1:2:0: axes[0].linspace.count = 0: must be in [1, 2^53]", ""},
-      {Axis("pendulum.a_m=0.001,0.002,0.003,0.004,0.005,0.006,0.007,0.008,0.009,inf"),
-       "--axis pendulum.a_m=0.001,0.002,0.003,0.004,0.005,0.006,0.007,0.008...: axes[0].list.values[9] = inf", ""},
+      {Axis("pendulum.a_m=0.001,0.002,0.003,0.004,0.005,0.006,0.007,0.008,0.009,0.010,0.011,0.012,inf"),
+       "--axis pendulum.a_m=0.001,0.002,0.003,0.004,0.005,0.006,0.007,0.008,0.009,0.010,0.011,0...: "
+       "axes[0].list.values[12] = inf",
+       ""},
       {Axis("pendulum.a_m=lin:1:inf:3"), "axes[0].linspace.stop = inf: must be finite", ""},
       {Axis("pendulum.a_m=log:0:1:3"), "axes[0].logspace.start = 0: must be finite and > 0", ""},
       {Axis("pendulum.mass_kg=1"),
