@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "absl/functional/function_ref.h"
 #include "tests/support/claims/claims.h"
 
 namespace ricochet::spatial {
@@ -14,7 +15,20 @@ namespace {
 constexpr int kCount = 500;
 constexpr uint64_t kSeed = 31;
 
-class SpatialClaimsTest : public testing::TestWithParam<double> {};
+class SpatialClaimsTest : public testing::TestWithParam<double> {
+ protected:
+  static ClaimTally TallyOf(const char* scenes, int count, absl::FunctionRef<Problem(SceneSource&)> next) {
+    SceneSource source(kSeed);
+    ClaimTally tally(GetParam());
+    for (int i = 0; i < count; ++i) {
+      Problem problem = next(source);
+      problem.tolerance = GetParam();
+      AddClaim(problem, tally);
+    }
+    PrintClaims("space", scenes, tally);
+    return tally;
+  }
+};
 
 TEST_P(SpatialClaimsTest, TypicalScenesAreWithinTheToleranceAndNotFarWithinIt) {
   const ClaimTally tally = SpatialClaims(/*hard=*/false, GetParam(), kCount, kSeed);
@@ -34,29 +48,18 @@ TEST_P(SpatialClaimsTest, HardScenesDeceiveNobody) {
 
 // Where W has rank two, v often vanishes with u, so that friction locks the contact.
 TEST_P(SpatialClaimsTest, ScenesOfRankTwoDeceiveNobodyAndHaveAnError) {
-  SceneSource source(kSeed);
-  ClaimTally tally(GetParam());
-  for (int i = 0; i < 2 * kCount; ++i) {
-    Problem problem = source.WithDegreesOfFreedom(2);
-    problem.tolerance = GetParam();
-    AddClaim(problem, tally);
-  }
-  PrintClaims("space", "rank two", tally);
+  const ClaimTally tally = TallyOf("rank two", 2 * kCount, [](SceneSource& of) { return of.WithDegreesOfFreedom(2); });
   EXPECT_EQ(tally.broken(), 0);
   EXPECT_EQ(tally.unknown(), 0);
 }
 
 // Friction stops slip at once, however large it is, so that it does not make the claims large.
 TEST_P(SpatialClaimsTest, ScenesOfLargeFrictionDeceiveNobodyAndAreWithinTheTolerance) {
-  SceneSource source(kSeed);
-  ClaimTally tally(GetParam());
-  for (int i = 0; i < 2 * kCount; ++i) {
-    Problem problem = source.Typical();
-    problem.mu = problem.mu_static = std::pow(10.0, source.Uniform(1.0, 9.0));
-    problem.tolerance = GetParam();
-    AddClaim(problem, tally);
-  }
-  PrintClaims("space", "rough", tally);
+  const ClaimTally tally = TallyOf("rough", 2 * kCount, [](SceneSource& of) {
+    Problem problem = of.Typical();
+    problem.mu = problem.mu_static = std::pow(10.0, of.Uniform(1.0, 9.0));
+    return problem;
+  });
   EXPECT_EQ(tally.broken(), 0);
   EXPECT_EQ(tally.unknown(), 0);
   EXPECT_LE(tally.claimed_above_tolerance(), kCount / 15);
@@ -64,14 +67,7 @@ TEST_P(SpatialClaimsTest, ScenesOfLargeFrictionDeceiveNobodyAndAreWithinTheToler
 
 // Steps along the one direction in which slip can change add their rounding, and no more.
 TEST_P(SpatialClaimsTest, ScenesInWhichSlipKeepsAPartDeceiveNobodyAndAreWithinTheTolerance) {
-  SceneSource source(kSeed);
-  ClaimTally tally(GetParam());
-  for (int i = 0; i < kCount; ++i) {
-    Problem problem = source.WithPartThatStays();
-    problem.tolerance = GetParam();
-    AddClaim(problem, tally);
-  }
-  PrintClaims("space", "part stays", tally);
+  const ClaimTally tally = TallyOf("part stays", kCount, [](SceneSource& of) { return of.WithPartThatStays(); });
   EXPECT_EQ(tally.broken(), 0);
   EXPECT_EQ(tally.unknown(), 0);
   EXPECT_LE(tally.claimed_above_tolerance(), kCount / 50);
