@@ -120,7 +120,7 @@ class Fitter {
 
   // Sees what the data tell at the best fit.
   void Look() {
-    std::vector<double> predicted, derivatives, weights;
+    std::vector<double> predicted, derivatives;
     if (!model_.Predict(best_.at, predicted) || !model_.Differentiate(best_.at, all_free_, derivatives)) {
       derivatives.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
     }
@@ -128,12 +128,9 @@ class Fitter {
     for (size_t i = 0; i < predicted.size(); ++i) {
       const double residual = problem_.numbers[i].Residual(predicted[i]);
       chi2_ += residual * residual;
-      weights.push_back(LossOf(problem_, residual * residual).weight);
     }
-    weights.resize(problem_.numbers.size(), 1.0);
     predicted.resize(problem_.numbers.size(), 0.0);
-    information_ =
-        InformationOf(problem_, best_.at, predicted, derivatives, weights, [this] { return model_.Stops(); });
+    information_ = InformationOf(problem_, best_.at, predicted, derivatives, [this] { return model_.Stops(); });
   }
 
   // The distance at which an interval or a region should end.
@@ -165,7 +162,7 @@ class Fitter {
       estimate.profile.push_back({best_.at[k], 0.0});
       for (const double side : {-1.0, 1.0}) {
         const Direction direction = Towards({{k, side}});
-        const RayEnd end = EndOfRay(best_, direction, kFitRiseOfInterval, kPlaces, model_);
+        const RayEnd end = EndOfRay(best_, direction, kFitRiseOfInterval * information_.rise, kPlaces, model_);
         if (end.better.has_value() && may_restart) return Adopt(*end.better);
         SetEnd(end, direction.step[k], side < 0.0 ? estimate.low : estimate.high, estimate);
       }
@@ -202,7 +199,7 @@ class Fitter {
     for (int ray = 0; ray < kRays && !model_.is_stopped(); ++ray) {
       const double angle = 2.0 * std::numbers::pi * ray / kRays;
       const Direction direction = Towards({{x, Cos(angle)}, {y, Sin(angle)}});
-      const RayEnd end = EndOfRay(best_, direction, kRiseOfRegion, 0, model_);
+      const RayEnd end = EndOfRay(best_, direction, kRiseOfRegion * information_.rise, 0, model_);
       if (end.kind != FitEndKind::kFound && end.kind != FitEndKind::kCutByBound) continue;
       response_.region.push_back(
           {best_.at[x] + end.distance * direction.step[x], best_.at[y] + end.distance * direction.step[y], end.kind});

@@ -6,6 +6,8 @@
 #include <limits>
 #include <unsupported/Eigen/SpecialFunctions>
 
+#include "core/fit/robust.h"
+#include "core/fit/search.h"
 #include "core/numerics/elementary.h"
 
 namespace ricochet::fit {
@@ -48,20 +50,24 @@ Eigen::MatrixXd FewRowsOf(const Eigen::MatrixXd& slopes, absl::FunctionRef<bool(
 }  // namespace
 
 Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& predicted,
-                          const std::vector<double>& derivatives, const std::vector<double>& weights,
-                          absl::FunctionRef<bool()> stopped) {
+                          const std::vector<double>& derivatives, absl::FunctionRef<bool()> stopped) {
   const auto count = static_cast<Eigen::Index>(problem.numbers.size());
   const auto size = static_cast<Eigen::Index>(problem.unknowns());
   Eigen::MatrixXd slopes(count, size);
   double numbers = 0.0;  // The length of the numbers in sigmas.
+  double weights = 0.0;  // Their sum.
+  std::vector<double> residuals;
   for (Eigen::Index i = 0; i < count; ++i) {
     if (i % kBlock == kBlock - 1 && stopped()) return {};
     const auto number = static_cast<size_t>(i);
     const auto& [row, column, value, sigma] = problem.numbers[number];
     numbers = Hypot(numbers, std::max(std::fabs(predicted[number]), std::fabs(value)) / sigma);
+    const double residual = residuals.emplace_back(problem.numbers[number].Residual(predicted[number]));
+    const double weight = LossOf(problem, residual * residual).weight;
+    weights += weight;
     for (Eigen::Index k = 0; k < size; ++k) {
       const double slope = derivatives[number * problem.unknowns() + static_cast<size_t>(k)];
-      slopes(i, k) = slope * std::sqrt(weights[number]) / sigma;
+      slopes(i, k) = slope * std::sqrt(weight) / sigma;
     }
   }
   Eigen::VectorXd lengths = slopes.colwise().norm().transpose();
@@ -90,10 +96,14 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
     }
   }
   information.degrees_of_freedom = count - static_cast<int64_t>(information.rank);
+  const Spread spread = SpreadOf(problem, residuals, information.degrees_of_freedom);
+  information.rise = spread.rise;
+  // J^T J of the weighted residuals is that of all residuals times the mean weight.
+  const double variance = spread.variance * (weights / static_cast<double>(count));
   for (Eigen::Index k = 0; k < size; ++k) {
     for (Eigen::Index j = 0; j < size; ++j) {
       const bool both = information.is_seen[static_cast<size_t>(k)] && information.is_seen[static_cast<size_t>(j)];
-      information.covariance.push_back(both ? inverse(k, j) / (lengths[k] * lengths[j]) : kNone);
+      information.covariance.push_back(both ? variance * inverse(k, j) / (lengths[k] * lengths[j]) : kNone);
       information.correlation.push_back(both ? inverse(k, j) / std::sqrt(inverse(k, k) * inverse(j, j)) : kNone);
     }
   }

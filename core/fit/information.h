@@ -1,8 +1,9 @@
 // Information: what the residuals at a fit tell about each unknown, by their derivatives.
 //
-// With the weighted residuals r(x) and J = dr/dx, the covariance of the unknowns is (J^T J)^-1. J is divided by the
-// lengths of its columns and decomposed into singular values, so that no units matter: an unknown whose column is
-// nothing, or that a combination with singular value nothing has a part of, is not seen by itself and has no variance.
+// With the weighted residuals r(x) and J = dr/dx, the covariance of the unknowns is (J^T J)^-1, times what a robust
+// loss adds (core/fit/robust.h). J is divided by the lengths of its columns and decomposed into singular values, so
+// that no units matter: an unknown whose column is nothing, or that a combination with singular value nothing has a
+// part of, is not seen by itself and has no variance.
 
 #ifndef RICOCHET_CORE_FIT_INFORMATION_H_
 #define RICOCHET_CORE_FIT_INFORMATION_H_
@@ -22,14 +23,14 @@ struct Information {
   int64_t degrees_of_freedom = 0;               // Measured numbers less these combinations.
   std::vector<bool> is_seen;                    // By itself.
   std::vector<double> covariance, correlation;  // FitResponse explains both.
+  double rise = 1.0;                            // That of the objective at the end of an interval, over chi-squared's.
   std::vector<std::vector<double>> row_shares;  // FitEstimate explains them; one list for each unknown.
 };
 
-// `derivatives` are those of the predicted numbers at the unknowns `at` (core/fit/model.h), `weights` those of the
-// squared residuals. Once `stopped` returns true, what is returned means nothing.
+// `derivatives` are those of the predicted numbers at the unknowns `at` (core/fit/model.h). Once `stopped` returns
+// true, what is returned means nothing.
 Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& predicted,
-                          const std::vector<double>& derivatives, const std::vector<double>& weights,
-                          absl::FunctionRef<bool()> stopped);
+                          const std::vector<double>& derivatives, absl::FunctionRef<bool()> stopped);
 
 // The probability that chi-squared with so many degrees of freedom, > 0, exceeds a value, exact to some 1e-12 of 1.
 double ChiSquaredBeyond(double value, double degrees_of_freedom);

@@ -238,6 +238,7 @@ void Judge(const Problem& problem, const std::vector<double>& best, const Inform
   response.why_differences = problem.why_differences;
   response.exact_derivatives = problem.why_differences.empty();
   SetRows(problem, best, model, response);
+  response.interval_rise = kFitRiseOfInterval * information.rise;
   response.degrees_of_freedom = information.degrees_of_freedom;
   response.p_value = PValueOf(response.chi2, information);
   AuditRows(problem, best, model, response);

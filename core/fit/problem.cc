@@ -215,8 +215,9 @@ class Door {
     problem_.loss_scale = request_.loss_scale.value_or(request_.loss == FitLoss::kHuber ? kHuberScale : kCauchyScale);
     if (!is_robust && request_.loss_scale.has_value()) {
       RefuseNumber("loss_scale", *request_.loss_scale, "be unset without a robust loss");
-    } else if (!(problem_.loss_scale > 0.0 && std::isfinite(problem_.loss_scale))) {
-      RefuseNumber("loss_scale", problem_.loss_scale, "be > 0, in sigmas");
+    } else if (!(problem_.loss_scale >= kLeastFitLossScale && problem_.loss_scale <= kMostFitLossScale)) {
+      RefuseNumber("loss_scale", problem_.loss_scale,
+                   absl::StrCat("be in [", kLeastFitLossScale, ", ", kMostFitLossScale, "], in sigmas"));
     }
   }
 
@@ -233,7 +234,8 @@ class Door {
     }
     const size_t size = problem_.region.size();
     if (size != 0 && (size != 2 || problem_.region[0] == problem_.region[1])) {
-      Refuse("region", absl::StrCat("has ", size, " entries"), "have two different unknowns, or none");
+      Refuse("region", absl::StrCat("has ", size, size == 1 ? " entry" : " entries"),
+             "have two different unknowns, or none");
     }
   }
 

@@ -158,9 +158,11 @@ Loss LossOf(const Problem& problem, double squared_residual) {
   switch (problem.loss) {
     case FitLoss::kHuber:
       if (part <= 1.0) break;
-      return {.loss = square * (2.0 * std::sqrt(part) - 1.0), .weight = 1.0 / std::sqrt(part)};
-    case FitLoss::kCauchy:
-      return {.loss = square * LogOfOnePlus(part), .weight = 1.0 / (1.0 + part)};
+      return {.loss = square * (2.0 * std::sqrt(part) - 1.0), .weight = 1.0 / std::sqrt(part), .curvature = 0.0};
+    case FitLoss::kCauchy: {
+      const double weight = 1.0 / (1.0 + part);
+      return {.loss = square * LogOfOnePlus(part), .weight = weight, .curvature = weight * (2.0 * weight - 1.0)};
+    }
     case FitLoss::kUnspecified:
     case FitLoss::kSquares:
       break;

@@ -34,10 +34,11 @@ Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_f
 // of the starts, because the data do not tell it from others, by halves of the way.
 void Approach(const std::vector<double>& start, Model& model, Minimum& found);
 
-// The loss of a squared residual, and its derivative by it: the weight of the residual.
+// The loss of a squared residual, its derivative by it, and half its second derivative by the residual itself.
 struct Loss {
   double loss = 0.0;
   double weight = 1.0;
+  double curvature = 1.0;
 };
 Loss LossOf(const Problem& problem, double squared_residual);
 

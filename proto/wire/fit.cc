@@ -78,12 +78,13 @@ struct Map<FitRegionPoint> : Between<FitRegionPoint, v1::FitRegionPoint> {
 
 template <>
 struct Map<FitResponse> : Between<FitResponse, v1::FitResponse> {
-  static constexpr auto kFields = Entries(
-      RICOCHET_FIELD(unknowns), RICOCHET_FIELD(covariance), RICOCHET_FIELD(correlation), RICOCHET_FIELD(rows),
-      RICOCHET_FIELD(outliers), RICOCHET_FIELD(objective), RICOCHET_FIELD(chi2), RICOCHET_FIELD(degrees_of_freedom),
-      RICOCHET_FIELD(p_value), RICOCHET_FIELD(refused), RICOCHET_FIELD(starts), RICOCHET_FIELD(starts_differ),
-      RICOCHET_FIELD(thresholds), RICOCHET_FIELD(region), RICOCHET_FIELD(exact_derivatives),
-      RICOCHET_FIELD(why_differences), RICOCHET_FIELD(notes), RICOCHET_FIELD(engine));
+  static constexpr auto kFields =
+      Entries(RICOCHET_FIELD(unknowns), RICOCHET_FIELD(covariance), RICOCHET_FIELD(correlation), RICOCHET_FIELD(rows),
+              RICOCHET_FIELD(outliers), RICOCHET_FIELD(objective), RICOCHET_FIELD(interval_rise), RICOCHET_FIELD(chi2),
+              RICOCHET_FIELD(degrees_of_freedom), RICOCHET_FIELD(p_value), RICOCHET_FIELD(refused),
+              RICOCHET_FIELD(starts), RICOCHET_FIELD(starts_differ), RICOCHET_FIELD(thresholds), RICOCHET_FIELD(region),
+              RICOCHET_FIELD(exact_derivatives), RICOCHET_FIELD(why_differences), RICOCHET_FIELD(notes),
+              RICOCHET_FIELD(engine));
 };
 
 v1::FitRequest ToProto(const FitRequest& request) { return Sent(request); }

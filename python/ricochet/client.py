@@ -347,7 +347,8 @@ class Client:
             sigma: standard deviations of measured columns that the table has none of: numbers or arrays.
             bounds: ``(low, high)`` of unknowns, in their units; None is the bound that the number has by its rule.
             loss: ``"squares"``, ``"huber"`` or ``"cauchy"``; by default squares.
-            loss_scale: where a robust loss bends, in sigmas; by default 1.345 for Huber's and 2.385 for Cauchy's.
+            loss_scale: where a robust loss bends, in sigmas, in [1e-6, 1e9]; by default 1.345 for Huber's and 2.385
+                for Cauchy's.
             starts: searches, in [1, 1000]; further ones spread over the bounds.
             max_iterations: the most iterations of a search, in [1, 10000].
             region: two unknowns whose 95 % region is wanted.

@@ -49,6 +49,7 @@ const std::set<std::string>& WithoutUnit() {
                                               "from_above",
                                               "from_below",
                                               "high",
+                                              "interval_rise",
                                               "jacobian",
                                               "jam",
                                               "kinetic",

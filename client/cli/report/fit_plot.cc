@@ -75,12 +75,12 @@ Panel ResidualPanel(const FitRequest& request, const FitResponse& response, cons
   return panel;
 }
 
-Panel ProfilePanel(const FitEstimate& unknown) {
+Panel ProfilePanel(const FitEstimate& unknown, double interval_rise) {
   const Label label = LabelOf(unknown.path);
   Panel panel{.title = absl::StrCat("Profile of ", label.name, unknown.seen ? "" : " (not seen)"),
               .x_label = WithUnit(label),
               .y_label = "rise of the objective",
-              .y_marks = {kFitRiseOfInterval}};
+              .y_marks = {interval_rise}};
   Curve curve{.title = "", .points = {}, .style = kProfile};
   for (const FitProfilePoint& point : unknown.profile) {
     if (point.rise <= kMostRise) curve.points.emplace_back(point.value, point.rise);
@@ -121,7 +121,8 @@ Plot FitPlot(const FitRequest& request, const FitResponse& response) {
     plot.panels.push_back(DataPanel(request, response, x, column));
   }
   plot.panels.push_back(ResidualPanel(request, response, x));
-  for (const FitEstimate& unknown : response.unknowns) plot.panels.push_back(ProfilePanel(unknown));
+  for (const FitEstimate& unknown : response.unknowns)
+    plot.panels.push_back(ProfilePanel(unknown, response.interval_rise));
   if (!request.region.empty()) plot.panels.push_back(RegionPanel(request, response));
   return plot;
 }

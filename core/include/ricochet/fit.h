@@ -21,8 +21,8 @@
 
 namespace ricochet {
 
-// An interval covers 95 %: it ends where the objective rises by this, the quantile of chi-squared for one degree of
-// freedom.
+// An interval covers 95 %: with squares, it ends where the objective rises by this, the quantile of chi-squared for one
+// degree of freedom.
 inline constexpr double kFitRiseOfInterval = 3.841458820694124;
 // The data refuse the physics if a true model would give so large a chi2 with less than this probability.
 inline constexpr double kFitRefusedBelow = 1e-3;
@@ -65,6 +65,7 @@ inline constexpr int32_t kFitStarts = 1, kMostFitStarts = 1000;
 inline constexpr int32_t kFitIterations = 100, kMostFitIterations = 10'000;
 // The scales at which a robust loss has 95 % of the efficiency of squares if all errors are normal.
 inline constexpr double kHuberScale = 1.345, kCauchyScale = 2.385;
+inline constexpr double kLeastFitLossScale = 1e-6, kMostFitLossScale = 1e9;
 
 struct FitRequest {
   Scene scene = {};                       // Gives every number that is neither unknown nor an input.
@@ -72,7 +73,7 @@ struct FitRequest {
   std::vector<FitInput> inputs = {};
   std::vector<FitMeasured> measured = {};  // At least one, with as many measured numbers as there are unknowns or more.
   FitLoss loss = FitLoss::kUnspecified;
-  std::optional<double> loss_scale = {};  // c > 0, of a robust loss only; absent: kHuberScale or kCauchyScale.
+  std::optional<double> loss_scale = {};  // Of a robust loss only; absent: kHuberScale or kCauchyScale.
   std::optional<int32_t> starts = {};     // In [1, kMostFitStarts]; absent: 1. Further ones spread over the bounds.
   std::optional<int32_t> max_iterations = {};  // Of each search, in [1, kMostFitIterations]; absent: kFitIterations.
   std::vector<std::string> region = {};        // Empty, or the paths of the two unknowns whose 95 % region is wanted.
@@ -157,8 +158,11 @@ struct FitResponse {
   // Row by row, a row and a column for each unknown; NaN for one that is not seen.
   std::vector<double> covariance, correlation;
   std::vector<FitRow> rows;
-  std::vector<FitOutlier> outliers;      // The largest residual first.
-  double objective = 0.0;                // The best fit has it; FitStart explains it.
+  std::vector<FitOutlier> outliers;  // The largest residual first.
+  double objective = 0.0;            // The best fit has it; FitStart explains it.
+  // The rise of the objective at which the intervals end: kFitRiseOfInterval, times E[psi^2]/E[psi'] for a robust loss
+  // with half the derivative psi.
+  double interval_rise = kFitRiseOfInterval;
   double chi2 = 0.0;                     // Sum of the squared residuals, whatever the loss.
   int64_t degrees_of_freedom = 0;        // Measured numbers less combinations of unknowns that are seen.
   std::optional<double> p_value;         // The probability of so large a chi2; set if there is a degree of freedom.

@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
                 r.loss = FitLoss::kHuber;
                 r.loss_scale = 0.0;
               },
-              "loss_scale", "= 0: must be > 0"},
+              "loss_scale", "= 0: must be in [1e-06, 1e+09], in sigmas"},
         Wrong{"NoStarts", [](FitRequest& r) { r.starts = 0; }, "starts", "= 0: must be in [1, 1000]"},
         Wrong{"NoIterations", [](FitRequest& r) { r.max_iterations = 0; }, "max_iterations", "= 0: must be in [1, "},
         Wrong{"RegionOfNoUnknown",
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
               },
               "region[0]", "did you mean restitution.poisson?"},
         Wrong{"RegionOfOne", [](FitRequest& r) { r.region = {"restitution.poisson"}; }, "region",
-              "has 1 entries: must have two different unknowns, or none"},
+              "has 1 entry: must have two different unknowns, or none"},
         Wrong{"SceneWrong",
               [](FitRequest& r) {
                 r.scene.restitution = std::monostate();

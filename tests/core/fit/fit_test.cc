@@ -5,12 +5,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/engine/parallel_batch.h"
 #include "core/fit/information.h"
 #include "core/fit/judgement.h"
+#include "core/fit/robust.h"
 #include "ricochet/solver.h"
 #include "tests/core/fit/fit_cases.h"
 
@@ -445,7 +447,7 @@ TEST(FitTest, ManyRowsOfInformationAskForAStopAndTellTheSame) {
   const std::vector<double> ones(kCount, 1.0);
   int questions = 0;
   const auto count = [&questions] { return ++questions < 0; };
-  const Information information = InformationOf(problem, {0.5, 0.5}, ones, derivatives, ones, count);
+  const Information information = InformationOf(problem, {0.5, 0.5}, ones, derivatives, count);
   EXPECT_GE(questions, 8);
   constexpr double n = kCount;
   const double linear = (n + 1.0) / 2.0, square = (n + 1.0) * (2.0 * n + 1.0) / (6.0 * n);
@@ -454,6 +456,38 @@ TEST(FitTest, ManyRowsOfInformationAskForAStopAndTellTheSame) {
   EXPECT_NEAR(information.covariance[1], -0.25 * linear / determinant, 1e-13 * linear / determinant);
   EXPECT_NEAR(information.covariance[3], 0.25 * n / determinant, 1e-13 * n / determinant);
   EXPECT_EQ(information.degrees_of_freedom, static_cast<int64_t>(kCount) - 2);
+}
+
+// The rises are E[psi^2]/E[psi'] by adaptive quadrature in SciPy. The variances are those of 95 % efficiency at the
+// default scales, that of the median for a narrow loss (pi/2), and that of the mean for a wide one.
+TEST(FitTest, ARobustLossSpreadsNormalResidualsAsItsEfficiencySays) {
+  Problem problem = *CheckFit(Noiseless(ContactCase()));
+  const auto spread = [&problem](FitLoss loss, double scale) {
+    problem.loss = loss;
+    problem.loss_scale = scale;
+    return SpreadOf(problem, {}, 0);
+  };
+  EXPECT_NEAR(spread(FitLoss::kHuber, kHuberScale).rise, 0.8646047798852482, 1e-4);
+  EXPECT_NEAR(spread(FitLoss::kCauchy, kCauchyScale).rise, 0.7340955537844267, 1e-6);
+  EXPECT_NEAR(spread(FitLoss::kHuber, 0.5).rise, 0.48345864749375655, 1e-4);
+  EXPECT_NEAR(spread(FitLoss::kCauchy, 1.0).rise, 0.4521356166648463, 1e-6);
+  EXPECT_NEAR(spread(FitLoss::kHuber, kHuberScale).variance, 1.0 / 0.95, 1e-4);
+  EXPECT_NEAR(spread(FitLoss::kCauchy, kCauchyScale).variance, 1.0 / 0.95, 1e-4);
+  EXPECT_NEAR(spread(FitLoss::kHuber, kLeastFitLossScale).variance, std::numbers::pi / 2.0, 1e-2);
+  EXPECT_NEAR(spread(FitLoss::kHuber, 1e6).variance, 1.0, 1e-6);
+  EXPECT_NEAR(spread(FitLoss::kCauchy, 1e6).variance, 1.0, 1e-6);
+}
+
+// Half of the residuals are outliers, whose psi is the scale and whose psi' is 0: psi^2 has the mean 0.5 c^2, and psi'
+// the mean 0.5.
+TEST(FitTest, OutliersSpreadARobustFitByTheirShare) {
+  Problem problem = *CheckFit(Noiseless(ContactCase()));
+  problem.loss = FitLoss::kHuber;
+  problem.loss_scale = 2.0;
+  const std::vector<double> half = {0.0, 0.0, 0.0, 0.0, 10.0, -10.0, 20.0, -20.0};
+  EXPECT_NEAR(SpreadOf(problem, half, 8).rise, 4.0, 1e-12);
+  EXPECT_NEAR(SpreadOf(problem, half, 4).rise, 8.0, 1e-12);
+  EXPECT_NEAR(SpreadOf(problem, half, 4).variance, 16.0, 1e-12);
 }
 
 TEST(FitTest, ADeadlineEndsIt) {
