@@ -10,9 +10,6 @@
 namespace ricochet {
 namespace {
 
-// The error with which a row enters the front.
-double ErrorOf(const CostRow& row) { return std::max(row.achieved->total, row.reference_error); }
-
 bool IsComparable(const CostRow& row) {
   return row.status == CostStatus::kMeasured && row.solve.has_value() && row.achieved.has_value();
 }
@@ -61,13 +58,13 @@ std::vector<int64_t> ParetoFront(const std::vector<CostRow>& rows) {
   std::stable_sort(order.begin(), order.end(), [&row](int64_t i, int64_t k) {
     const double a = row(i).solve->median_s;
     const double b = row(k).solve->median_s;
-    return a != b ? a < b : ErrorOf(row(i)) < ErrorOf(row(k));
+    return a != b ? a < b : row(i).ComparedError() < row(k).ComparedError();
   });
   std::vector<int64_t> front;
   double least = std::numeric_limits<double>::infinity();
   for (const int64_t i : order) {
-    if (!(ErrorOf(row(i)) < least)) continue;
-    least = ErrorOf(row(i));
+    if (!(row(i).ComparedError() < least)) continue;
+    least = row(i).ComparedError();
     front.push_back(i);
   }
   return front;

@@ -80,7 +80,7 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
   }
   bool end_object() override { return Leave(); }
   bool start_array(size_t) override {
-    if (levels_.empty()) return Fail("must be an object: {\"pendulum\": {...}, ...}");
+    if (levels_.empty()) return FailForNoObject();
     const FieldDescriptor* field = Field();
     // The parser of the protos would take the entries of a list in a list for entries of the outer one.
     const bool is_in_list = levels_.back().is_list;
@@ -176,9 +176,14 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     return Value(FieldDescriptor::CPPTYPE_DOUBLE);
   }
 
+  bool FailForNoObject() {
+    if (root_->field_count() == 0) return Fail("must be an object: {}");
+    return Fail(absl::StrCat("must be an object: {\"", root_->field(0)->name(), "\": ..., ...}"));
+  }
+
   // Takes note of a value of the kind that JSON has. A field that is a choice may be chosen once.
   bool Value(FieldDescriptor::CppType kind) {
-    if (levels_.empty()) return Fail("must be an object: {\"pendulum\": {...}, ...}");
+    if (levels_.empty()) return FailForNoObject();
     Level& level = levels_.back();
     const FieldDescriptor* field = Field();
     if (field == nullptr) return true;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/text/number_input.h"
@@ -18,6 +19,17 @@ namespace {
 // Below this nothing can be read, above it a program that shows pictures fails.
 constexpr int64_t kLeastSide = 200;
 constexpr int64_t kMostSide = 10'000;
+
+// Returns the options that say how a picture looks, of those that were given.
+std::vector<const char*> GivenLooks(const PictureOptions& options) {
+  std::vector<const char*> given;
+  if (!options.title.empty()) given.push_back("--title");
+  if (!options.size.empty()) given.push_back("--size");
+  if (options.log_x) given.push_back("--logx");
+  if (options.log_y) given.push_back("--logy");
+  if (options.kind != PlotKind::kAuto) given.push_back("--kind");
+  return given;
+}
 
 }  // namespace
 
@@ -71,11 +83,10 @@ absl::StatusOr<PictureSize> SizeOf(const PictureOptions& options) {
 
 absl::Status CheckPicture(const PictureOptions& options) {
   if (options.file.empty()) {
-    if (options.title.empty() && options.size.empty() && !options.log_x && !options.log_y &&
-        options.kind == PlotKind::kAuto) {
-      return absl::OkStatus();
-    }
-    return absl::InvalidArgumentError("--title, --size, --logx, --logy and --kind need --plot FILE");
+    const std::vector<const char*> given = GivenLooks(options);
+    if (given.empty()) return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        absl::StrCat(absl::StrJoin(given, " and "), given.size() == 1 ? " needs" : " need", " --plot FILE"));
   }
   if (Printable(options.title) != options.title) {
     return InputError("--title", Printable(options.title), "be UTF-8 without control characters");

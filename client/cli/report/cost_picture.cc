@@ -106,8 +106,7 @@ double DrawnClaim(double error) { return std::isinf(error) ? kBeyond : Drawn(err
 
 using Place = std::pair<double, double> (*)(const CostRow& row);
 
-// The error made, or the least that its reference can tell from 0.
-double Made(const CostRow& row) { return Drawn(std::max(row.achieved->total, row.reference_error)); }
+double Made(const CostRow& row) { return Drawn(row.ComparedError()); }
 
 std::pair<double, double> TimePlace(const CostRow& row) { return {Made(row), row.solve->median_s}; }
 std::pair<double, double> ClaimPlace(const CostRow& row) { return {DrawnClaim(row.claimed.total), Made(row)}; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
 
@@ -97,18 +98,21 @@ std::string Heading(const Outcome& outcome) {
   return absl::StrCat(outcome.admissible ? "Impact: " : "INADMISSIBLE impact: ", RegimeText(outcome.regime));
 }
 
-// Explains the line that MarkCompression draws.
-std::string Legend(const Outcome& outcome) {
-  return outcome.impulse.normal_compression_n_s.has_value() ? " (dashed: compression ends)" : "";
+// Explains the line that MarkCompression draws, and the dots of a path that is not straight between its events.
+std::string Legend(const Outcome& outcome, bool is_straight) {
+  std::vector<std::string> marks;
+  if (!is_straight) marks.push_back("dots: events, between which the path is curved");
+  if (outcome.impulse.normal_compression_n_s.has_value()) marks.push_back("dashed: compression ends");
+  return marks.empty() ? "" : absl::StrCat(" (", absl::StrJoin(marks, "; "), ")");
 }
 
 Plot PlanarPlot(const Outcome& outcome) {
   const std::vector<Event>& timeline = outcome.timeline;
   const bool has_rates = !timeline.front().state.rates_rad_s.empty();
-  Plot plot{.title = absl::StrCat(Heading(outcome), Legend(outcome))};
+  const bool is_straight = IsLinearBetweenEvents(outcome.plan.model);
+  Plot plot{.title = absl::StrCat(Heading(outcome), Legend(outcome, is_straight))};
   plot.panels = {has_rates ? RatesPanel(timeline) : VelocityPanel(timeline), RatioPanel(timeline),
                  ImpulsePanel(timeline)};
-  const bool is_straight = IsLinearBetweenEvents(outcome.plan.model);
   for (Panel& panel : plot.panels) {
     MarkCompression(outcome, panel);
     if (is_straight) continue;
@@ -116,11 +120,7 @@ Plot PlanarPlot(const Outcome& outcome) {
       panel.curves[i].style = absl::StrCat(kJoin, i == 0 ? "'#0072B2'" : "'#D55E00'");
     }
   }
-  if (!is_straight) {
-    plot.panels[1].title = "Mean friction force to normal force";
-    plot.title =
-        absl::StrCat(Heading(outcome), " (dots: events, between which the path is curved; dashed: compression ends)");
-  }
+  if (!is_straight) plot.panels[1].title = "Mean friction force to normal force";
   return plot;
 }
 
@@ -211,7 +211,7 @@ absl::StatusOr<Plot> SpatialPlot(const Solver& solver, const Scene& scene, const
   Panel impulse = ImpulsePanel(*path);
   MarkCompression(outcome, velocity);
   MarkCompression(outcome, impulse);
-  return Plot{.title = absl::StrCat(Heading(outcome), Legend(outcome)),
+  return Plot{.title = absl::StrCat(Heading(outcome), Legend(outcome, true)),
               .panels = {HodographPanel(*path), std::move(velocity), std::move(impulse)}};
 }
 

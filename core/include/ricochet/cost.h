@@ -15,6 +15,7 @@
 #ifndef RICOCHET_COST_H_
 #define RICOCHET_COST_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -116,6 +117,10 @@ struct CostRow {
   int64_t steps = 0;                              // 0 for a closed form.
   int64_t right_hand_sides = 0;                   // 0 for a closed form.
   friend bool operator==(const CostRow&, const CostRow&) = default;
+
+  // The error by which rows are compared: the one achieved, which must be present, or what the reference leaves open if
+  // that is more.
+  double ComparedError() const { return std::max(achieved->total, reference_error); }
 
   // The error achieved is larger than the one claimed, by more than the reference leaves open.
   bool ClaimIsBroken() const { return achieved.has_value() && achieved->total - reference_error > claimed.total; }

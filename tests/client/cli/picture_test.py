@@ -567,9 +567,11 @@ class Failures(PictureTest):
 
     def test_options_of_a_picture_need_one(self):
         sweep = ["sweep", *PENDULUM, "--axis", "friction.kinetic_coefficient=0.1,0.2", "--column", "coefficients.newton"]
-        for option in [["--size", "640x400"], ["--title", "x"], ["--logy"]]:
+        for option in [["--size", "640x400"], ["--title", "x"], ["--logy"], ["--kind", "map"]]:
             result = run(*sweep, *option, code=2)
-            self.assertIn("need --plot FILE", result.stderr)
+            self.assertIn(f": {option[0]} needs --plot FILE", result.stderr)
+        result = run(*sweep, "--logx", "--title", "x", code=2)
+        self.assertIn(": --title and --logx need --plot FILE", result.stderr)
         for size in ["640", "640x", "10x400", "640x400x2", "99999x400"]:
             result = run("solve", *PENDULUM, "--plot", self.path("p.svg"), "--size", size, code=2)
             self.assertIn("WIDTHxHEIGHT in pixels", result.stderr)

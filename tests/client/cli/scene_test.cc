@@ -84,6 +84,14 @@ TEST_F(CliScene, AFileWhoseNameTellsTheOtherFormIsRefusedWithItsOwn) {
               HasSubstr("json.txtpb is in JSON, whose files are named .json"));
 }
 
+TEST_F(CliScene, AFileThatHoldsNoObjectIsToldWhatItsKindBeginsWith) {
+  for (const char* text : {"[]", "3"}) {
+    Write("list.json", text);
+    EXPECT_THAT(Run({"solve", "--scene", "list.json"}).err, HasSubstr("must be an object: {\"pendulum\": ..., ...}"));
+    EXPECT_THAT(Run({"sweep", "--request", "list.json"}).err, HasSubstr("must be an object: {\"scene\": ..., ...}"));
+  }
+}
+
 TEST_F(CliScene, PrintKeepsScenesWithSeveralContacts) {
   for (const SceneTemplate& one : MultiContactTemplates()) {
     const std::string name = one.system;
