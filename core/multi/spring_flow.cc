@@ -48,12 +48,13 @@ double FirstRoot(const Series& series, int lead) {
   // The parabola with this curvature bends below the series, so that it vanishes first.
   double s = 0.0;
   for (int step = 0; step < kMostSteps; ++step) {
-    double value = c[order], slope = 0.0;
+    double value = c[order], slope = 0.0, size = std::abs(c[order]);
     for (int m = order - 1; m >= 0; --m) {
       slope = slope * s + value;
       value = value * s + c[m];
+      size = size * s + std::abs(c[m]);
     }
-    if (value <= kEpsilon * (c[0] + others)) return s;
+    if (value <= kEpsilon * size) return s;
     const double root = std::sqrt(slope * slope + 2.0 * curvature * value);
     const double ahead = slope < 0.0 ? 2.0 * value / (root - slope) : (slope + root) / curvature;
     if (!(s + ahead > s)) return s;
