@@ -1,6 +1,7 @@
 #include "core/multi/energy.h"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +12,7 @@ namespace {
 
 // A row of W with no more than this part of its diagonal left depends on the rows before.
 constexpr double kRankTolerance = 1e-13;
-// A convex combination of rays this short, each scaled to length 1, is 0 up to rounding.
+// A convex combination of rays this short, each scaled to a normal part of length 1, is 0 up to rounding.
 constexpr double kJamTolerance = 1e-15;
 
 // The ray of the cone of contact i that `moved` = W x parts least, scaled to a normal direction of length 1.
@@ -93,8 +94,9 @@ EnergyMetric MetricOf(const Problem& problem) {
   return metric;
 }
 
-// The shortest convex combination of the rays, by Wolfe's method: the angle of each ray with it is acute.
-Eigen::VectorXd PushApart(const Problem& problem) {
+// The shortest convex combination of the rays, by Wolfe's method: the angle of each ray with it is acute. It has no
+// entries if it is 0 up to rounding, which grows with the squares of the coefficients of friction.
+static Eigen::VectorXd ShortestPush(const Problem& problem) {
   constexpr int kMostRounds = 100;
   std::vector<Eigen::VectorXd> rays;
   std::vector<double> weights;
@@ -147,6 +149,35 @@ Eigen::VectorXd PushApart(const Problem& problem) {
     for (size_t a = 0; a < rays.size(); ++a) x += weights[a] * rays[a];
   }
   return {};
+}
+
+// An impulse that gives the contacts no slip, so that friction of any size stays out of it, and by least squares normal
+// velocities that are nearly equal in the metric of energy. It has no entries if it does not part all contacts.
+static Eigen::VectorXd PushWithoutSlip(const Problem& problem, const EnergyMetric& metric) {
+  const Eigen::Index k = problem.k, d = problem.d, rank = metric.g.cols();
+  if (rank == 0) return {};
+  Eigen::MatrixXd slip(k * (d - 1), rank), normal(k, rank);
+  for (int i = 0; i < problem.k; ++i) {
+    slip.middleRows(i * (d - 1), d - 1) = metric.g.middleRows(problem.T(i), d - 1).rowwise().normalized();
+    normal.row(i) = metric.g.row(problem.N(i)).normalized();
+  }
+  const Eigen::MatrixXd still = slip.fullPivLu().kernel();
+  const Eigen::VectorXd parts = (normal * still).fullPivHouseholderQr().solve(Eigen::VectorXd::Ones(k));
+  const Eigen::VectorXd push = metric.ImpulseFor(still * parts);
+  const Eigen::VectorXd moved = problem.w * push;
+  const Eigen::VectorXd rounding =
+      2.0 * static_cast<double>(push.size()) * kEpsilon * (problem.w.cwiseAbs() * push.cwiseAbs());
+  for (int i = 0; i < problem.k; ++i) {
+    const double slips = moved.segment(problem.T(i), d - 1).norm() + rounding.segment(problem.T(i), d - 1).norm();
+    const double needed = problem.laws[At(i)].mu * slips + rounding(problem.N(i));
+    if (!(moved(problem.N(i)) > needed)) return {};
+  }
+  return push;
+}
+
+Eigen::VectorXd PushApart(const Problem& problem, const EnergyMetric& metric) {
+  const Eigen::VectorXd shortest = ShortestPush(problem);
+  return shortest.size() > 0 ? shortest : PushWithoutSlip(problem, metric);
 }
 
 }  // namespace ricochet::multi

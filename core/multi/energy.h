@@ -32,7 +32,7 @@ EnergyMetric MetricOf(const Problem& problem);
 // An impulse pi with (W pi)_n > mu |(W pi)_t| at every contact: it pushes all contacts apart whatever they do by
 // friction. It has no entries if there is none, up to rounding; then impulses within the cones exist that move nothing,
 // and the contacts may jam.
-Eigen::VectorXd PushApart(const Problem& problem);
+Eigen::VectorXd PushApart(const Problem& problem, const EnergyMetric& metric);
 
 }  // namespace ricochet::multi
 

@@ -100,7 +100,7 @@ class Answerer {
     const Eigen::VectorXd v = reduction_.ContactVelocity(velocity_);
     answer_.contact_velocity_before_m_s.assign(v.data(), v.data() + v.size());
     answer_.energy_before_j = 0.5 * metric_.y.squaredNorm() * EnergyScale();
-    const Eigen::VectorXd apart = PushApart(sorted_.problem);
+    const Eigen::VectorXd apart = PushApart(sorted_.problem, metric_);
     answer_.jams = apart.size() == 0;
     AddPairs();
     const bool orders = Wanted(MultiContactMethod::kOrders);

@@ -125,7 +125,7 @@ TEST(HardMultiContactTest, ABallInASlotComesToRest) {
   EXPECT_EQ(rest.v(3), 0.0);
   EXPECT_NEAR(rest.p(1), 1.5 / 2.0 / (1.0 - 0.4), 1e-15);
   EXPECT_NEAR(rest.p(3), 1.8 * 0.5 / 2.0 / (1.0 - 0.4), 1e-15);
-  EXPECT_EQ(PushApart(slot).size(), 0);
+  EXPECT_EQ(PushApart(slot, MetricOf(slot)).size(), 0);
   const Attained springs = FindSprings(slot, std::nullopt, kNever);
   EXPECT_NEAR(springs.v(1), 0.0, springs.ErrorOf(slot, 1) + 1e-12);
 }
@@ -187,7 +187,7 @@ TEST(HardMultiContactTest, PlasticSpringsAreTheLimitOfSpringsThatAreNearlyPlasti
   int compared = 0;
   for (int scene = 0; scene < 60; ++scene) {
     Problem problem = RandomMultiContact(random, true);
-    if (problem.k != 2 || PushApart(problem).size() == 0) continue;
+    if (problem.k != 2 || PushApart(problem, MetricOf(problem)).size() == 0) continue;
     const auto with = [&](double e) {
       for (ContactLaw& law : problem.laws) law.e = e;
       return FindSprings(problem, std::nullopt, kNever);
@@ -210,7 +210,7 @@ TEST(HardMultiContactTest, ACoefficientBelowRoundingIsPlastic) {
   int compared = 0;
   for (int scene = 0; scene < 60; ++scene) {
     Problem problem = RandomMultiContact(random, true);
-    if (problem.k != 2 || PushApart(problem).size() == 0) continue;
+    if (problem.k != 2 || PushApart(problem, MetricOf(problem)).size() == 0) continue;
     const auto with = [&](double e) {
       problem.laws[0].e = e;
       return FindSprings(problem, std::nullopt, kNever);
@@ -543,7 +543,7 @@ TEST(HardMultiContactTest, SpringsOfOneContactAreThePlanarModel) {
     const Problem several = RandomMultiContact(random, true);
     Problem one = {.d = 2, .k = 1, .w = several.w.topLeftCorner(2, 2), .v = several.v.head(2)};
     one.laws = {several.laws.front()};
-    if (!(one.v(1) < 0.0) || PushApart(one).size() == 0) continue;
+    if (!(one.v(1) < 0.0) || PushApart(one, MetricOf(one)).size() == 0) continue;
     Problem beside = {.d = 2, .k = 2, .w = Eigen::MatrixXd::Identity(4, 4), .v = Vector::Ones(4)};
     beside.laws = {one.laws.front(), one.laws.front()};
     beside.w.topLeftCorner(2, 2) = one.w;

@@ -25,7 +25,8 @@ std::vector<Eigen::VectorXd> ContactVelocities(const Problem& problem) {
 }
 
 std::vector<Range> RangesOf(const Problem& problem) {
-  return FindPossible(problem, MetricOf(problem), PushApart(problem), ContactVelocities(problem), kNever);
+  return FindPossible(problem, MetricOf(problem), PushApart(problem, MetricOf(problem)), ContactVelocities(problem),
+                      kNever);
 }
 
 // The reference found them by faces in double precision, to about 1e-12.
@@ -65,7 +66,7 @@ TEST(PossibleTest, TheSearchProvesTheMaximaOfFaces) {
   for (int scene = 0; scene < 40; ++scene) {
     const Problem problem = RandomMultiContact(random, false);
     const EnergyMetric metric = MetricOf(problem);
-    const Eigen::VectorXd apart = PushApart(problem);
+    const Eigen::VectorXd apart = PushApart(problem, MetricOf(problem));
     if (apart.size() == 0) continue;
     const std::vector<Eigen::VectorXd> gammas = ContactVelocities(problem);
     const std::vector<Maximum> maxima = MaximaOnFaces(problem, metric, gammas);
@@ -122,9 +123,29 @@ TEST(DualBoundTest, AnyPointProvesABound) {
       DualPoint point = {.nu = Eigen::VectorXd(problem.k), .pi = Eigen::VectorXd(2 * problem.k)};
       for (double& x : point.nu) x = normal(random);
       for (double& x : point.pi) x = normal(random);
-      EXPECT_GE(DualBound(problem, metric.root_energy, PushApart(problem), gammas[j], point),
+      EXPECT_GE(DualBound(problem, metric.root_energy, PushApart(problem, MetricOf(problem)), gammas[j], point),
                 maxima[2 * j].value - 1e-12);
     }
+  }
+}
+
+// Two feet that stand side by side on one floor cannot press against each other, whatever friction holds them: a push
+// upwards parts both.
+TEST(PushApartTest, FeetOnOneFloorDoNotJamUnderAnyFriction) {
+  // A block, 1 m wide and 2 m high, by x, y and its angle.
+  Eigen::Matrix<double, 4, 3> jacobian;
+  jacobian << 1.0, 0.0, 1.0, 0.0, 1.0, -0.5, 1.0, 0.0, 1.0, 0.0, 1.0, 0.5;
+  const Eigen::Vector3d mobility(1.0, 1.0, 2.4);
+  for (const double mu : {1.0, 1e3, 1e4, 1e6, 1e9, 1e12}) {
+    Problem problem = {.d = 2,
+                       .k = 2,
+                       .w = jacobian * mobility.asDiagonal() * jacobian.transpose(),
+                       .v = Vector::Zero(4),
+                       .laws = {{.mu = mu}, {.mu = mu}}};
+    const Eigen::VectorXd push = PushApart(problem, MetricOf(problem));
+    ASSERT_EQ(push.size(), 4) << mu;
+    const Eigen::VectorXd moved = problem.w * push;
+    for (int i = 0; i < 2; ++i) EXPECT_GT(moved(2 * i + 1), mu * std::abs(moved(2 * i))) << mu;
   }
 }
 
@@ -133,9 +154,9 @@ TEST(PushApartTest, WallsThatFaceEachOtherJam) {
   Problem wedge = {.d = 2, .k = 2, .w = Eigen::MatrixXd::Zero(4, 4), .v = Vector::Zero(4), .laws = {{}, {}}};
   wedge.w(1, 1) = wedge.w(3, 3) = 1.0;
   wedge.w(1, 3) = wedge.w(3, 1) = -1.0;
-  EXPECT_EQ(PushApart(wedge).size(), 0);
+  EXPECT_EQ(PushApart(wedge, MetricOf(wedge)).size(), 0);
   wedge.w(1, 3) = wedge.w(3, 1) = -0.999;
-  EXPECT_EQ(PushApart(wedge).size(), 4);
+  EXPECT_EQ(PushApart(wedge, MetricOf(wedge)).size(), 4);
 }
 
 }  // namespace

@@ -88,10 +88,11 @@ inline bool IsAttained(MultiContactEnd end) {
 inline void AddClaims(const Problem& problem, bool has_springs, const std::string& scene, MultiContactClaims& tallies) {
   using claims::Worst;
   const auto never = [] { return false; };
-  const Eigen::VectorXd apart = PushApart(problem);
+  const EnergyMetric metric = MetricOf(problem);
+  const Eigen::VectorXd apart = PushApart(problem, metric);
   std::vector<Eigen::VectorXd> gammas;
   for (int j = 0; j < problem.v.size(); ++j) gammas.push_back(Eigen::VectorXd::Unit(problem.v.size(), j));
-  const std::vector<Range> ranges = FindPossible(problem, MetricOf(problem), apart, gammas, never);
+  const std::vector<Range> ranges = FindPossible(problem, metric, apart, gammas, never);
   const auto add_inside = [&](const ExactOutcome& exact) {
     for (size_t j = 0; j < ranges.size(); ++j) {
       const double outside = std::max({0.0, exact.v[j] - ranges[j].upper, ranges[j].lower - exact.v[j]});
