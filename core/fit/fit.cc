@@ -29,11 +29,10 @@ constexpr int kRays = 48;
 constexpr int kPlaces = 4;
 // The intervals are sought again at most this many times after a ray has found a better fit.
 constexpr int kMostRestarts = 4;
-// A fit is refused only after this many further starts: where all rows stick, or none approaches, the search sees no
-// way to a better one.
-constexpr size_t kFurtherStarts = 16;
-// The further starts are the best of this many places.
-constexpr int kLookedAt = 512;
+// Where all rows stick, or none approaches, the search sees no way to a better fit. So it looks at many places, and
+// goes on from the best of them; before it refuses a fit, from more.
+constexpr int kLookedAtAlways = 128, kLookedAtIfRefused = 512;
+constexpr size_t kStartsAlways = 2, kStartsIfRefused = 16;
 // A further start that lowers the objective by less than this part of it has found the same fit.
 constexpr double kLeastGain = 1e-6;
 
@@ -82,7 +81,14 @@ class Fitter {
     for (int number = 0; number < problem_.starts; ++number) SearchFrom(StartOf(problem_, number), number);
     if (model_.is_stopped()) return {};  // There may be no fit yet to look at.
     Look();
-    if (IsRefused()) SearchFurther();
+    for (const std::vector<double>& centre : {problem_.start, best_.at}) {
+      for (const std::vector<double>& start : PlacesOf(centre, kLookedAtAlways, kStartsAlways)) SearchFurther(start);
+    }
+    if (IsRefused()) {
+      for (const std::vector<double>& start : PlacesOf(problem_.start, kLookedAtIfRefused, kStartsIfRefused)) {
+        if (IsRefused()) SearchFurther(start);
+      }
+    }
     for (int restart = 0; FollowUnknowns(restart < kMostRestarts) && !model_.is_stopped(); ++restart) Look();
     FollowRegion();
     Judge(problem_, best_.at, information_, model_, response_);
@@ -99,23 +105,23 @@ class Fitter {
     if (number >= problem_.starts && !(found.objective < (1.0 - kLeastGain) * best_.objective)) return false;
     const bool has_start = std::isfinite(found.objective);
     response_.starts.push_back({start, found.at, found.objective, found.iterations, found.converged && has_start});
-    const bool is_best = number == 0 || found.objective < best_.objective;
+    const bool is_best = number == 0 || found.objective < best_.objective - kAsGood;
     if (is_best) best_ = found;
     return is_best;
   }
 
-  void SearchFurther() {
-    int number = problem_.starts;
-    for (const std::vector<double>& start : BestPlaces(problem_.start, all_free_, kLookedAt, kFurtherStarts, model_)) {
-      if (SearchFrom(start, number++)) Look();
-      if (!IsRefused()) break;
-    }
+  std::vector<std::vector<double>> PlacesOf(const std::vector<double>& centre, int looked_at, size_t most) {
+    return BestPlaces(centre, all_free_, looked_at, most, model_);
+  }
+
+  void SearchFurther(const std::vector<double>& start) {
+    if (SearchFrom(start, problem_.starts)) Look();
   }
 
   // True if the residuals of the best fit are too large for their errors.
   bool IsRefused() const {
     const std::optional<double> p_value = PValueOf(chi2_, information_);
-    return p_value.has_value() && *p_value < kFitRefusedBelow;
+    return p_value.has_value() ? *p_value < kFitRefusedBelow : chi2_ > kAsGood;
   }
 
   // Sees what the data tell at the best fit.
@@ -166,6 +172,8 @@ class Fitter {
         if (end.better.has_value() && may_restart) return Adopt(*end.better);
         SetEnd(end, direction.step[k], side < 0.0 ? estimate.low : estimate.high, estimate);
       }
+      estimate.seen =
+          estimate.seen || (estimate.low.kind == FitEndKind::kFound && estimate.high.kind == FitEndKind::kFound);
       std::sort(estimate.profile.begin(), estimate.profile.end(),
                 [](const FitProfilePoint& a, const FitProfilePoint& b) { return a.value < b.value; });
     }
@@ -179,16 +187,21 @@ class Fitter {
     return true;
   }
 
+  // The best fit's number and a step, whose sum may round beyond a bound.
+  double PlaceOf(size_t k, double step) const {
+    return std::clamp(best_.at[k] + step, problem_.low[k], problem_.high[k]);
+  }
+
   void SetEnd(const RayEnd& ray, double step, FitEnd& end, FitEstimate& estimate) const {
     const size_t k = response_.unknowns.size() - 1;
-    // The sum may round beyond a bound.
-    const double value = std::clamp(estimate.value + ray.distance * step, problem_.low[k], problem_.high[k]);
+    const double value = PlaceOf(k, ray.distance * step);
     end.kind = ray.kind;
     if (ray.kind == FitEndKind::kFound || ray.kind == FitEndKind::kCutByBound) end.value = value;
     // The data do not determine this number, so a bound that it reaches is not an end that the data gave.
     if (!estimate.seen && ray.kind != FitEndKind::kFound) end = {.kind = FitEndKind::kNotSeen, .value = {}};
     for (const RayPoint& point : ray.computed) {
-      if (std::isfinite(point.rise)) estimate.profile.push_back({estimate.value + point.distance * step, point.rise});
+      if (std::isfinite(point.rise))
+        estimate.profile.push_back({estimate.value + point.distance * step, std::max(point.rise, 0.0)});
     }
   }
 
@@ -197,12 +210,15 @@ class Fitter {
     const size_t x = problem_.region[0];
     const size_t y = problem_.region[1];
     for (int ray = 0; ray < kRays && !model_.is_stopped(); ++ray) {
+      // A quarter of a turn leaves one of the two as it is, so that it does not leave a bound by rounding.
       const double angle = 2.0 * std::numbers::pi * ray / kRays;
-      const Direction direction = Towards({{x, Cos(angle)}, {y, Sin(angle)}});
+      const double cosine = ray % (kRays / 2) == kRays / 4 ? 0.0 : Cos(angle);
+      const double sine = ray % (kRays / 2) == 0 ? 0.0 : Sin(angle);
+      const Direction direction = Towards({{x, cosine}, {y, sine}});
       const RayEnd end = EndOfRay(best_, direction, kRiseOfRegion * information_.rise, 0, model_);
       if (end.kind != FitEndKind::kFound && end.kind != FitEndKind::kCutByBound) continue;
       response_.region.push_back(
-          {best_.at[x] + end.distance * direction.step[x], best_.at[y] + end.distance * direction.step[y], end.kind});
+          {PlaceOf(x, end.distance * direction.step[x]), PlaceOf(y, end.distance * direction.step[y]), end.kind});
     }
   }
 

@@ -57,6 +57,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   double numbers = 0.0;  // The length of the numbers in sigmas.
   double weights = 0.0;  // Their sum.
   std::vector<double> residuals;
+  Eigen::VectorXd fall = Eigen::VectorXd::Zero(size);  // Half the fall of the objective by each unknown.
   for (Eigen::Index i = 0; i < count; ++i) {
     if (i % kBlock == kBlock - 1 && stopped()) return {};
     const auto number = static_cast<size_t>(i);
@@ -68,6 +69,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
     for (Eigen::Index k = 0; k < size; ++k) {
       const double slope = derivatives[number * problem.unknowns() + static_cast<size_t>(k)];
       slopes(i, k) = slope * std::sqrt(weight) / sigma;
+      fall[k] += weight * residual * slope / sigma;
     }
   }
   Eigen::VectorXd lengths = slopes.colwise().norm().transpose();
@@ -95,7 +97,15 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
       if (std::fabs(part[k]) > kLeastPart) information.is_seen[static_cast<size_t>(k)] = false;
     }
   }
-  information.degrees_of_freedom = count - static_cast<int64_t>(information.rank);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const auto unknown = static_cast<size_t>(k);
+    const bool is_low = at[unknown] <= problem.low[unknown] && fall[k] < 0.0;
+    const bool is_high = at[unknown] >= problem.high[unknown] && fall[k] > 0.0;
+    information.is_at_bound.push_back(information.is_seen[unknown] && (is_low || is_high));
+  }
+  // An unknown at a bound is no more free than one that is given.
+  information.degrees_of_freedom = count - static_cast<int64_t>(information.rank) +
+                                   std::count(information.is_at_bound.begin(), information.is_at_bound.end(), true);
   const Spread spread = SpreadOf(problem, residuals, information.degrees_of_freedom);
   information.rise = spread.rise;
   // J^T J of the weighted residuals is that of all residuals times the mean weight.

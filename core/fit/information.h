@@ -20,7 +20,8 @@ namespace ricochet::fit {
 
 struct Information {
   size_t rank = 0;                              // Combinations of unknowns that are seen.
-  int64_t degrees_of_freedom = 0;               // Measured numbers less these combinations.
+  std::vector<bool> is_at_bound;                // The objective would fall beyond the bound where the unknown is.
+  int64_t degrees_of_freedom = 0;               // Measured numbers less the rank, and one for each unknown at a bound.
   std::vector<bool> is_seen;                    // By itself.
   std::vector<double> covariance, correlation;  // FitResponse explains both.
   double rise = 1.0;                            // That of the objective at the end of an interval, over chi-squared's.

@@ -7,11 +7,11 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/audit/audit_scene.h"
 #include "core/base/decimal.h"
+#include "core/fit/measured_velocity.h"
 #include "core/fit/search.h"
 #include "core/numerics/elementary.h"
 #include "ricochet/solver.h"
@@ -66,45 +66,6 @@ double PossibleSigmas(size_t rows) {
   return high;
 }
 
-// The velocity after the impact that a row measured, if it measured all of it, and the largest sigma of a component of
-// the contact's.
-struct MeasuredVelocity {
-  Observed observed;
-  double sigma = 0.0;
-};
-
-// The number that a row measured at a path. Its sigma widens `sigma`.
-std::optional<double> MeasuredAt(const Problem& problem, size_t row, const std::string& path, double& sigma) {
-  const auto& numbers = problem.numbers;
-  auto number =
-      std::lower_bound(numbers.begin(), numbers.end(), row, [](const Number& n, size_t r) { return n.row < r; });
-  while (number != numbers.end() && number->row == row && problem.batch.columns[number->column] != path) ++number;
-  if (number == numbers.end() || number->row != row) return std::nullopt;
-  sigma = std::max(sigma, number->sigma);
-  return number->value;
-}
-
-std::optional<MeasuredVelocity> VelocityOf(const Problem& problem, size_t row, const Scene& scene) {
-  double sigma = 0.0;
-  // The contact of a pendulum moves by its rate times its distance from the pin.
-  if (const auto* const pendulum = std::get_if<Pendulum>(&scene.system)) {
-    if (const auto rate = MeasuredAt(problem, row, "rates_after_rad_s[0]", sigma)) {
-      return MeasuredVelocity{ObservedRates{{*rate}}, sigma * Hypot(pendulum->a_m, pendulum->b_m)};
-    }
-  }
-  ContactVelocity velocity;
-  for (size_t i = 0; i < TangentialDirections(scene.system); ++i) {
-    const std::string path = absl::StrCat("contact_velocity_after.tangential_m_s[", i, "]");
-    const auto u = MeasuredAt(problem, row, path, sigma);
-    if (!u.has_value()) return std::nullopt;
-    velocity.tangential_m_s.push_back(*u);
-  }
-  const auto v = MeasuredAt(problem, row, "contact_velocity_after.normal_m_s", sigma);
-  if (!v.has_value()) return std::nullopt;
-  velocity.normal_m_s = *v;
-  return MeasuredVelocity{velocity, sigma};
-}
-
 void AuditRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
   const double sigmas = PossibleSigmas(problem.rows);
   for (size_t row = 0; row < problem.rows && !model.Stops(); ++row) {
@@ -112,7 +73,7 @@ void AuditRows(const Problem& problem, const std::vector<double>& best, Model& m
     const std::optional<MeasuredVelocity> velocity = VelocityOf(problem, row, scene);
     if (!velocity.has_value()) continue;
     const absl::StatusOr<AuditResponse> audit = AuditScene(
-        {.scene = scene, .observed = velocity->observed, .velocity_uncertainty_m_s = sigmas * velocity->sigma},
+        {.scene = scene, .observed = velocity->velocity, .velocity_uncertainty_m_s = sigmas * velocity->sigma},
         [&model] { return model.Stops(); });
     if (!audit.ok()) continue;
     for (int limit = 1; limit < kAuditLimitCount; ++limit) {
@@ -147,7 +108,7 @@ bool StartsDiffer(const Problem& problem, const FitResponse& response) {
     for (size_t k = 0; k < problem.unknowns(); ++k) {
       const FitEstimate& estimate = response.unknowns[k];
       const double distance = std::fabs(start.to[k] - first->to[k]);
-      if (!estimate.seen) continue;
+      if (!estimate.sigma.has_value()) continue;
       if (distance > kSamePlace * *estimate.sigma && distance > kSamePart * std::fabs(first->to[k])) return true;
     }
   }
@@ -192,18 +153,35 @@ std::string Limits(const FitRow& row) {
   return text;
 }
 
-void SetNotes(FitResponse& response) {
+void SetNotes(const Information& information, FitResponse& response) {
   std::vector<std::string>& notes = response.notes;
   if (!response.starts.front().converged) {
     notes.emplace_back("The search from the first start did not converge; more iterations or another start may help.");
   }
-  for (const FitEstimate& estimate : response.unknowns) {
+  for (size_t k = 0; k < response.unknowns.size(); ++k) {
+    const FitEstimate& estimate = response.unknowns[k];
     if (!estimate.seen) {
       notes.push_back(
           absl::StrCat(estimate.path, " is not seen in these data: ", WhyUnseen(estimate, response.rows), "."));
     }
+    if (estimate.seen && !estimate.sigma.has_value()) {
+      notes.push_back(absl::StrCat(estimate.path,
+                                   " has no sigma: at the best fit its derivatives vanish, or are those of a "
+                                   "combination with others. The interval holds."));
+    }
+    if (information.is_at_bound[k]) {
+      notes.push_back(absl::StrCat(estimate.path,
+                                   " would fit better beyond its bound. Sigma and covariance do not hold there; the "
+                                   "interval does."));
+    }
     NoteEnd(estimate, "lower", estimate.low, notes);
     NoteEnd(estimate, "upper", estimate.high, notes);
+  }
+  if (!response.p_value.has_value() && response.chi2 > kAsGood) {
+    notes.push_back(
+        absl::StrCat("There are no more measured numbers than unknowns, and yet none of the values tried "
+                     "gives these numbers: chi2 is ",
+                     ShortestDecimal(response.chi2), "."));
   }
   if (Chi2IsTooLarge(response)) {
     notes.push_back(absl::StrCat("The data refuse the physics or the stated errors: chi2 has the probability ",
@@ -247,7 +225,7 @@ void Judge(const Problem& problem, const std::vector<double>& best, const Inform
                                               [](const FitRow& row) { return !row.broken_limits.empty(); });
   SetThresholds(problem, best, model, response);
   response.starts_differ = StartsDiffer(problem, response);
-  SetNotes(response);
+  SetNotes(information, response);
 }
 
 }  // namespace ricochet::fit

@@ -22,6 +22,12 @@ constexpr int kMostFurther = 8;
 constexpr int kLookedAt = 128;
 constexpr size_t kTriedPlaces = 2;
 
+// The unknowns at a distance.
+struct Place {
+  double distance = 0.0;
+  std::vector<double> at;
+};
+
 class Ray {
  public:
   Ray(const Minimum& best, const Direction& direction, double rise, Model& model)
@@ -30,7 +36,8 @@ class Ray {
         step_(direction.step),
         rise_(rise),
         model_(model),
-        last_inside_(best.at) {
+        last_inside_{0.0, best.at},
+        inside_before_(last_inside_) {
     const Problem& problem = model.problem();
     for (size_t k = 0; k < step_.size(); ++k) {
       if (is_free_[k] || step_[k] == 0.0) continue;
@@ -45,9 +52,13 @@ class Ray {
 
   RayEnd Find(int places) {
     RayEnd end = Search();
-    last_inside_ = best_.at;
+    last_inside_ = inside_before_ = {0.0, best_.at};
     if (end.kind == FitEndKind::kUnbounded || end.distance == 0.0) places = 0;
-    for (int i = 1; i <= places && !model_.is_stopped(); ++i) Next(end.distance * i / (places + 1.0));
+    for (int i = 1; i <= places && !model_.is_stopped(); ++i) {
+      const RayPoint point = Next(end.distance * i / (places + 1.0));
+      RayPoint inside;
+      if (!(point.rise < rise_)) GoesOn(point, inside);
+    }
     end.computed = std::move(end_.computed);
     end.better = std::move(end_.better);
     return end;
@@ -82,6 +93,14 @@ class Ray {
     return start;
   }
 
+  // The unknowns at a distance, the free ones on the line through the last two places inside.
+  std::vector<double> Ahead(double distance) const {
+    std::vector<double> ahead = last_inside_.at;
+    const double part = (distance - last_inside_.distance) / (last_inside_.distance - inside_before_.distance);
+    for (size_t k = 0; k < ahead.size(); ++k) ahead[k] += part * (last_inside_.at[k] - inside_before_.at[k]);
+    return StartAt(distance, ahead, 1.0);
+  }
+
   // The distance, or the least number that is held there, over its step.
   double SizeAt(double distance) const {
     double size = distance;
@@ -95,7 +114,8 @@ class Ray {
   RayPoint Adopt(double distance, const Minimum& least) {
     const double rise = least.objective - best_.objective;
     if (IsInside(least)) {
-      last_inside_ = least.at;
+      if (distance != last_inside_.distance) inside_before_ = std::move(last_inside_);
+      last_inside_ = {distance, least.at};
       // A place outside that lies before this one had not found the least objective, so it is dropped.
       std::erase_if(end_.computed,
                     [&](const RayPoint& point) { return point.distance <= distance && point.rise >= rise_; });
@@ -107,7 +127,7 @@ class Ray {
   // The other unknowns start where they ended inside last. A place outside is tried from elsewhere, as they may have
   // ended where they change nothing.
   RayPoint Next(double distance) {
-    Minimum least = Minimize(StartAt(distance, last_inside_, 1.0), is_free_, kCoarseSearch, model_);
+    Minimum least = Minimize(StartAt(distance, last_inside_.at, 1.0), is_free_, kCoarseSearch, model_);
     if (IsInside(least)) return Adopt(distance, least);
     for (const std::vector<double>& start : OtherStarts(distance)) {
       if (IsInside(least)) break;
@@ -126,7 +146,7 @@ class Ray {
       if (IsInside(found)) inside = Adopt(outside.distance, found);
       return IsInside(found);
     };
-    if (is_inside_from(StartAt(outside.distance, last_inside_, 1.0))) return true;
+    if (is_inside_from(StartAt(outside.distance, last_inside_.at, 1.0))) return true;
     const std::vector<std::vector<double>> places =
         BestPlaces(StartAt(outside.distance, best_.at, 1.0), is_free_, kLookedAt, kTriedPlaces, model_);
     return std::any_of(places.begin(), places.end(), is_inside_from);
@@ -138,12 +158,14 @@ class Ray {
     return std::any_of(is_free_.begin(), is_free_.end(), [](bool is_free) { return is_free; });
   }
 
-  // The other unknowns at the last place inside and at the best fit; and moved from there by the factor of the one that
-  // is held, or by its inverse, as numbers do of which a product or a quotient alone is measured.
+  // The other unknowns where a line through the last two places inside leads, at the last of them and at the best fit;
+  // and moved from these by the factor of the one that is held, or by its inverse, as numbers do of which a product
+  // or a quotient alone is measured.
   std::vector<std::vector<double>> OtherStarts(double distance) const {
     std::vector<std::vector<double>> starts;
     if (!HasFree()) return starts;
-    for (const std::vector<double>* const from : {&last_inside_, &best_.at}) {
+    if (inside_before_.distance != last_inside_.distance) starts.push_back(Ahead(distance));
+    for (const std::vector<double>* const from : {&last_inside_.at, &best_.at}) {
       const std::vector<double> held = StartAt(distance, *from, 1.0);
       double factor = 1.0;
       for (size_t k = 0; k < held.size(); ++k) {
@@ -180,7 +202,7 @@ class Ray {
   const std::vector<double>& step_;
   const double rise_;
   Model& model_;
-  std::vector<double> last_inside_;                           // The unknowns of the last place inside.
+  Place last_inside_, inside_before_;                         // The last two places inside, or the best fit.
   double longest_ = std::numeric_limits<double>::infinity();  // The distance to the nearest bound.
   double at_bound_ = 0.0;                                     // An end that is no further from the bound lies there.
   RayEnd end_;  // It holds what the places so far have shown, but for the kind.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -15,6 +16,8 @@ namespace {
 constexpr int kFewer = 16;
 // Places are solved in groups that have at most this many rows together, or in groups of one.
 constexpr size_t kRowsAtOnce = size_t{1} << 18;
+// Places whose objectives differ by at most this part fit alike.
+constexpr double kAlike = 1e-9;
 
 // The root of ratio^(unknowns + 1) = 1 + ratio: the golden ratio for one unknown.
 double GoldenRatio(size_t unknowns) {
@@ -75,7 +78,7 @@ std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, c
     const std::vector<double> parts = PartsOf(number, centre.size(), ratio);
     for (size_t k = 0; k < place.size(); ++k) {
       const double side = 2.0 * parts[k] - 1.0;
-      if (is_free[k]) place[k] = Beside(problem, centre[k], side * side * side, k);
+      if (is_free[k]) place[k] = Beside(problem, centre[k], number % 2 == 0 ? side : side * side * side, k);
     }
   }
   std::vector<double> objectives;
@@ -90,7 +93,13 @@ std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, c
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return objectives[a] < objectives[b]; });
   std::vector<std::vector<double>> best;
-  for (size_t i = 0; i < std::min(most, order.size()) && std::isfinite(objectives[order[i]]); ++i) {
+  double last = -std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < order.size() && best.size() < most; ++i) {
+    const double objective = objectives[order[i]];
+    if (!std::isfinite(objective)) break;
+    // Where unknowns change nothing, many places fit alike, and one of them will do.
+    if (objective - last <= kAlike * std::fabs(objective)) continue;
+    last = objective;
     best.push_back(places[order[i]]);
   }
   return best;

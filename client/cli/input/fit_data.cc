@@ -131,7 +131,8 @@ absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, Fit
     unknown.path = pair->first;
     paths.push_back(unknown.path);
     if (pair->second.empty()) continue;
-    const absl::StatusOr<double> start = ParseNumber(pair->second, "--unknown", SpellingOf(unknown.path));
+    const absl::StatusOr<double> start =
+        ParseNumber(pair->second, absl::StrCat("--unknown ", unknown.path), SpellingOf(unknown.path));
     if (!start.ok()) return start.status();
     unknown.start = *start;
   }
@@ -149,7 +150,8 @@ absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, Fit
     for (const auto& [text, bound] : {std::pair(pair->second.substr(0, colon), &unknown.low),
                                       std::pair(pair->second.substr(colon + 1), &unknown.high)}) {
       if (text.empty()) continue;
-      const absl::StatusOr<double> number = ParseNumber(text, "--bound", SpellingOf(unknown.path));
+      const absl::StatusOr<double> number =
+          ParseNumber(text, absl::StrCat("--bound ", unknown.path), SpellingOf(unknown.path));
       if (!number.ok()) return number.status();
       *bound = *number;
     }
@@ -175,7 +177,7 @@ absl::Status ReadSigmas(const FitDataOptions& options, FitRequest& request) {
                         absl::StrCat("be NAME=SIGMA with the name of a measured column (", absl::StrJoin(paths, ", "),
                                      ")", DidYouMean(pair->first, paths)));
     }
-    const absl::StatusOr<double> sigma = ParseNumber(pair->second, "--sigma");
+    const absl::StatusOr<double> sigma = ParseNumber(pair->second, absl::StrCat("--sigma ", pair->first));
     if (!sigma.ok()) return sigma.status();
     if (!given.insert(pair->first).second) return GivenTwice("--sigma", pair->first);
     if (!request.measured[at].sigma.empty()) {

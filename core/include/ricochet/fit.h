@@ -105,8 +105,8 @@ struct FitProfilePoint {
 struct FitEstimate {
   std::string path;
   double value = 0.0;                    // The best fit has it; where the unknown is not seen, many others fit as well.
-  bool seen = false;                     // The data tell it by itself, and not only together with other unknowns.
-  std::optional<double> sigma;           // Standard deviation by the derivatives at the best fit; set if it is seen.
+  bool seen = false;                     // The data tell it by itself: by its derivatives, or by both ends.
+  std::optional<double> sigma;           // Standard deviation by the derivatives at the best fit, if they tell it.
   FitEnd low, high;                      // The 95 % interval by profile likelihood.
   std::vector<FitProfilePoint> profile;  // The profile as far as the search computed it, by rising value.
   std::vector<double> row_shares;  // The share of each row in what the data tell about it; empty if they tell nothing.
@@ -163,8 +163,10 @@ struct FitResponse {
   // The rise of the objective at which the intervals end: kFitRiseOfInterval, times E[psi^2]/E[psi'] for a robust loss
   // with half the derivative psi.
   double interval_rise = kFitRiseOfInterval;
-  double chi2 = 0.0;                     // Sum of the squared residuals, whatever the loss.
-  int64_t degrees_of_freedom = 0;        // Measured numbers less combinations of unknowns that are seen.
+  double chi2 = 0.0;  // Sum of the squared residuals, whatever the loss.
+  // Measured numbers less combinations of unknowns that are seen; one that would fit better beyond its bound counts as
+  // given.
+  int64_t degrees_of_freedom = 0;
   std::optional<double> p_value;         // The probability of so large a chi2; set if there is a degree of freedom.
   bool refused = false;                  // p_value < kFitRefusedBelow, or a row breaks a limit.
   std::vector<FitStart> starts;          // Those asked for, the given one first; then those that found a better fit.

@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/engine/parallel_batch.h"
@@ -19,6 +22,7 @@
 namespace ricochet::fit {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -427,7 +431,8 @@ TEST(FitTest, AStopEndsTheAuditsOfTheRows) {
     Model model(
         problem, [&rows](const BatchRows& all, absl::FunctionRef<bool()>) { return rows.Solve(all, Never); }, stop);
     FitResponse response = {.unknowns = std::vector<FitEstimate>(2), .starts = {{.converged = true}}};
-    Judge(problem, ContactCase().true_values, Information{}, model, response);
+    const Information information = {.is_at_bound = {false, false}, .is_seen = {true, true}};
+    Judge(problem, ContactCase().true_values, information, model, response);
     EXPECT_EQ(model.is_stopped(), last == 3);
     EXPECT_GE(questions, last == 3 ? 4 : static_cast<int>(problem.rows));
   }
@@ -488,6 +493,151 @@ TEST(FitTest, OutliersSpreadARobustFitByTheirShare) {
   EXPECT_NEAR(SpreadOf(problem, half, 8).rise, 4.0, 1e-12);
   EXPECT_NEAR(SpreadOf(problem, half, 4).rise, 8.0, 1e-12);
   EXPECT_NEAR(SpreadOf(problem, half, 4).variance, 16.0, 1e-12);
+}
+
+// A rod in a plane that falls at 2 m/s, with the restitution and the rows of a test.
+FitRequest FallingRod(Restitution restitution, const std::string& coefficient, double offset_t,
+                      std::vector<double> slip, std::vector<FitMeasured> measured) {
+  return {.scene = {.system = PlanarBody{.mass_kg = 1.0,
+                                         .inertia_com_kg_m2 = 0.02,
+                                         .offset_t_m = offset_t,
+                                         .offset_n_m = -0.2,
+                                         .velocity_n_m_s = -2.0},
+                    .friction = {.kinetic_coefficient = 0.3},
+                    .restitution = restitution},
+          .unknowns = {{.path = "friction.kinetic_coefficient", .start = 0.3, .low = 0.0, .high = 1.5},
+                       {.path = coefficient, .start = 0.5, .low = 0.0, .high = 1.0}},
+          .inputs = {{"planar_body.velocity_t_m_s", std::move(slip)}},
+          .measured = std::move(measured)};
+}
+
+FitResponse Answer(const FitRequest& request) {
+  const absl::StatusOr<FitResponse> response = Fit(request, [] { return false; });
+  EXPECT_TRUE(response.ok()) << response.status();
+  return response.value_or(FitResponse());
+}
+
+// The numbers are those of friction 0.1168 and an energetic coefficient of 0.0213, but from the start the search ends
+// with a chi2 of 5553.
+TEST(FitTest, AsManyUnknownsAsNumbersAreFoundFromElsewhere) {
+  FitRequest request = FallingRod(EnergeticCoefficient{0.5}, "restitution.energetic", 0.1, {-0.4396668, 0.5303894},
+                                  {{"bodies_after[0].angular_rad_s[0]", {-2.58814825, -6.45696549}, {0.013}}});
+  request.inputs.push_back({"planar_body.offset_t_m", {-0.05043773, -0.10525978}});
+  const FitResponse response = Answer(request);
+  EXPECT_LT(response.chi2, 1e-6);
+  EXPECT_NEAR(response.unknowns[0].value, 0.1168, 1e-3);
+  EXPECT_NEAR(response.unknowns[1].value, 0.0213, 1e-3);
+}
+
+// Friction between 0.19 and 0.28 fits as well as the best, and so does any coefficient from the best one to 1: a search
+// by brute force finds rises below 0.3. On the plateau where all rows stick the rise is 3.66.
+TEST(FitTest, AProfileLeavesAPlateauWhereOtherPlacesFit) {
+  FitRequest request =
+      FallingRod(PoissonCoefficient{0.5}, "restitution.poisson", -0.00717235,
+                 {-1.73611610, 0.02204858, -0.88257178, 0.37269286, 0.43176915, 1.70942763, 0.21281176},
+                 {{"contact_velocity_after.tangential_m_s[0]",
+                   {-0.01961597, 0.01145066, 0.00004808, -0.00260780, -0.00349178, -0.01512995, -0.00069169},
+                   {0.00965649}}});
+  request.loss = FitLoss::kHuber;
+  const FitResponse response = Answer(request);
+  EXPECT_NE(response.unknowns[1].high.kind, FitEndKind::kFound);
+  for (const FitProfilePoint& point : response.unknowns[0].profile) {
+    if (point.value > 0.19 && point.value < 0.28) {
+      EXPECT_LT(point.rise, 0.1) << point.value;
+    }
+  }
+}
+
+// Offsets of 0.1 m and of -0.1 m give the same numbers.
+TEST(FitTest, OfMinimaThatFitAlikeTheOneNearTheStartIsTaken) {
+  FitRequest request = {.scene = {.system = PlanarBody{.mass_kg = 1.0,
+                                                       .inertia_com_kg_m2 = 0.05,
+                                                       .offset_t_m = 0.1,
+                                                       .offset_n_m = -0.2,
+                                                       .velocity_n_m_s = -1.0},
+                                  .friction = {.kinetic_coefficient = 0.0},
+                                  .restitution = NewtonCoefficient{0.5}},
+                        .unknowns = {{.path = "planar_body.offset_t_m", .start = 0.05, .low = -0.3, .high = 0.3}},
+                        // Without friction tau = 1.5/(1 + a^2/0.05), and v ends at tau - 1.
+                        .measured = {{"bodies_after[0].linear_m_s[1]", std::vector<double>(5, 0.25), {0.001}}}};
+  for (const int starts : {1, 2, 3, 5, 8}) {
+    request.starts = starts;
+    EXPECT_NEAR(Answer(request).unknowns[0].value, 0.1, 1e-6) << starts;
+  }
+}
+
+// The rates of the double pendulum create energy (Kane and Levinson, 1985), and a body that falls at 2 m/s cannot rise
+// at 3.5 m/s.
+TEST(FitTest, VelocitiesOfLinksAndBodiesAreAuditedToo) {
+  const auto rod = [](double theta, double rate) {
+    return Link{.length_m = 1,
+                .mass_kg = 1,
+                .com_m = 0.5,
+                .inertia_com_kg_m2 = 1.0 / 12.0,
+                .theta_rad = theta,
+                .rate_rad_s = rate};
+  };
+  const FitResponse links =
+      Answer({.scene = {.system = Linkage{.links = {rod(0.3490658503988659, -0.1), rod(0.5235987755982988, -0.2)}},
+                        .friction = {.kinetic_coefficient = 0.7},
+                        .restitution = NewtonCoefficient{0.5}},
+              .unknowns = {{.path = "restitution.newton"}},
+              .measured = {{"rates_after_rad_s[0]", {-0.6692978596871272, -0.6692978596871272}, {0.001}},
+                           {"rates_after_rad_s[1]", {0.7262307284606437, 0.7262307284606437}, {0.001}}}});
+  EXPECT_TRUE(links.refused);
+  EXPECT_THAT(links.rows[1].broken_limits, Contains(AuditLimit::kEnergy));
+  const FitRequest falls = FallingRod(NewtonCoefficient{0.5}, "restitution.newton", 0.0, {0.0, 0.0},
+                                      {{"bodies_after[0].linear_m_s[0]", {0.0, 0.0}, {0.01}},
+                                       {"bodies_after[0].linear_m_s[1]", {3.5, 1.0}, {0.01}},
+                                       {"bodies_after[0].angular_rad_s[0]", {0.0, 0.0}, {0.01}}});
+  const FitResponse body = Answer(falls);
+  EXPECT_THAT(body.rows[0].broken_limits, Contains(AuditLimit::kEnergy));
+  EXPECT_THAT(body.rows[1].broken_limits, IsEmpty());
+}
+
+// With the truth on both bounds, half of the data would fit better beyond each.
+TEST(FitTest, TheProbabilityOfChiSquaredIsThatOfDataWhoseTruthLiesOnBounds) {
+  constexpr int kSets = 1000;
+  Case given = ContactCase();
+  given.truth.friction.kinetic_coefficient = 0.0;
+  given.truth.restitution = PoissonCoefficient{1.0};
+  given.unknowns[0].start = 0.1;
+  given.unknowns[1].high = 1.0;
+  for (FitInput& input : given.inputs) input.values.resize(2);
+  const FitRequest exact = Noiseless(given);
+  std::mt19937_64 random(20261129);
+  std::normal_distribution<double> normal;
+  int rare = 0;
+  for (int set = 0; set < kSets; ++set) {
+    FitRequest request = exact;
+    for (FitMeasured& measured : request.measured) {
+      for (double& value : measured.values) value += measured.sigma[0] * normal(random);
+    }
+    const FitResponse response = Answer(request);
+    ASSERT_TRUE(response.p_value.has_value());
+    rare += *response.p_value < 0.05 ? 1 : 0;
+  }
+  EXPECT_GE(rare, 0.03 * kSets);
+  EXPECT_LE(rare, 0.07 * kSets);
+}
+
+// The best fit lies on the bound e = 1, along which the region goes to both sides.
+TEST(FitTest, ARegionOnABoundGoesAlongItToBothSides) {
+  Case given = ContactCase();
+  given.unknowns[1].high = 1.0;
+  FitRequest request = Noiseless(given);
+  for (double& value : request.measured[1].values) value = std::fabs(value) * 1.8;
+  request.region = {"friction.kinetic_coefficient", "restitution.poisson"};
+  const FitResponse response = Answer(request);
+  ASSERT_EQ(response.unknowns[1].value, 1.0);
+  const auto count = [&](double side) {
+    return std::count_if(response.region.begin(), response.region.end(), [&](const FitRegionPoint& point) {
+      return point.y == 1.0 && side * (point.x - response.unknowns[0].value) > 0.0;
+    });
+  };
+  EXPECT_GE(count(-1.0), 1);
+  EXPECT_GE(count(1.0), 1);
+  for (const FitRegionPoint& point : response.region) EXPECT_LE(point.y, 1.0);
 }
 
 TEST(FitTest, ADeadlineEndsIt) {
