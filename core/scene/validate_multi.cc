@@ -192,6 +192,8 @@ void CheckSpread(const MultiReduction& reduction, Check& check) {
 void CheckRange(const std::string& field, const MultiContactScene& scene, const MultiReduction& reduction,
                 const Eigen::VectorXd& velocity, Check& check) {
   const bool is_stated = std::holds_alternative<ContactMatrix>(scene.system);
+  const auto* const mechanism = std::get_if<Mechanism>(&scene.system);
+  const bool has_held = mechanism != nullptr && !mechanism->kept_coordinates.empty();
   const double most = is_stated ? 64.0 * static_cast<double>(reduction.w.rows()) * kEpsilon : 0x1p-20;
   const Eigen::VectorXd sizes = reduction.jacobian.cwiseAbs() * velocity.cwiseAbs();
   const double outside = DistanceFromRange(reduction.w, reduction.ContactVelocity(velocity), sizes);
@@ -199,7 +201,10 @@ void CheckRange(const std::string& field, const MultiContactScene& scene, const 
     const std::string share = std::isfinite(outside) ? absl::StrCat("a share of ", ShortestDecimal(outside)) : "a part";
     return MakeViolation(field, absl::StrCat("has ", share, " beside the range of W"),
                          absl::StrCat("lie in it, no impulse changes the rest",
-                                      is_stated ? "; M and J keep what the rounding of W loses" : ""));
+                                      is_stated  ? "; M and J keep what the rounding of W loses"
+                                      : has_held ? "; held coordinates that move press contacts apart or together: "
+                                                   "hold fewer, or state their rates as 0"
+                                                 : ""));
   });
 }
 
