@@ -41,10 +41,9 @@ class Neighbours {
 
   double SlipGap(double tau) const { return slip_gap_ + slip_growth_ * tau; }                             // N
   double SpeedGap(double tau) const { return speed_gap_ + speed_growth_ * tau + lever_ * SlipGap(tau); }  // E
-  // The growth of SpeedGap from the end of compression of each impact on, where their slips differ by `slip_gap`.
-  double SpeedGapAfter(double time, double slip_gap) const {
-    return (speed_growth_ + lever_ * slip_growth_) * time + lever_ * slip_gap;
-  }
+  // The same from the end of compression of each impact on, where it is `gap`.
+  double SpeedGapAfter(double time, double gap) const { return (speed_growth_ + lever_ * slip_growth_) * time + gap; }
+  double lever() const { return lever_; }
   double ImpulseGap(size_t i, double tau) const {
     const double slip_gap = SlipGap(tau);
     const double turn = across_ + Weighted(turn_by_slip_, slip_gap);
@@ -64,10 +63,13 @@ class Neighbours {
   // True if static friction decides, or may decide, whether a contact at rest is held.
   bool StaticFrictionDecides() const {
     return static_friction_ > kinetic_friction_ && hold_ + hold_error_ > kinetic_friction_ - friction_error_ &&
-           hold_ - hold_error_ <= static_friction_ + static_error_;
+           !SurelySlips();
   }
   bool SurelyHolds() const { return hold_ + hold_error_ <= static_friction_ - static_error_; }
+  bool SurelySlips() const { return hold_ - hold_error_ > static_friction_ + static_error_; }
   bool Holds() const { return hold_ <= static_friction_; }
+  // True if slip of B surely stops as its compression ends: u = v = 0.
+  bool StopsAtRest() const { return stops_at_rest_; }
 
   double SlidingSlope(const Vector<kTangential>& u) const {
     double along = 0.0;
@@ -94,6 +96,7 @@ class Neighbours {
   void SetHold(const Reduction<kTangential>& reduction, const ContactErrors<kTangential>& errors);
   void SetGaps(const ContactErrors<kTangential>& errors);
   void SetTurn(const Reduction<2>& reduction, const ContactErrors<2>& errors, double most_tau);
+  void SetStop(const Reduction<2>& reduction, const ContactErrors<2>& errors);
 
   double wnn_, kinetic_friction_, static_friction_, friction_error_, static_error_, most_friction_;
   Vector<kTangential> roots_, inverse_roots_;  // Square roots of the diagonals of Wtt and of Wtt^-1.
@@ -104,7 +107,9 @@ class Neighbours {
   Vector<kTangential> direction_ = {};  // d
   // How far friction is turned by errors of what u has across d, and by those along d.
   double across_ = 0.0, turn_by_slip_ = 0.0;
-  double hold_ = 0.0, hold_error_ = 0.0;  // |Wtt^-1 wtn|
+  Vector<kTangential> holding_ = {};      // Wtt^-1 wtn
+  double hold_ = 0.0, hold_error_ = 0.0;  // Its length.
+  bool stops_at_rest_ = false;
   double stick_slope_ = 0.0;
   double slip_gap_ = 0.0, slip_growth_ = 0.0, speed_gap_ = 0.0, speed_growth_ = 0.0, lever_ = 0.0, slip_pace_ = 0.0;
 };
@@ -134,7 +139,8 @@ Neighbours<kTangential>::Neighbours(const Reduction<kTangential>& reduction, con
   coupling_size_ = Length<kTangential>(coupling_);
   root_trace_ = Length<kTangential>(roots_);
   if constexpr (kTangential == 2) {
-    if (freedom != Freedom::kMany && root_trace_ > 0.0) SetOneDirection(reduction);
+    const bool is_one = freedom == Freedom::kOneAlone || freedom == Freedom::kOneBesideOthers;
+    if (is_one && root_trace_ > 0.0) SetOneDirection(reduction);
   }
   steepest_ = wnn_ + std::max(most_friction_, static_friction_) * coupling_size_;
   slope_noise_ = 16.0 * kUnit * steepest_;
@@ -142,6 +148,7 @@ Neighbours<kTangential>::Neighbours(const Reduction<kTangential>& reduction, con
   SetGaps(errors);
   if constexpr (kTangential == 2) {
     if (has_one_direction_ && freedom == Freedom::kOneBesideOthers) SetTurn(reduction, errors, most_tau);
+    if (freedom == Freedom::kTwoAlone) SetStop(reduction, errors);
   }
 }
 
@@ -180,17 +187,16 @@ void Neighbours<kTangential>::SetTurn(const Reduction<2>& reduction, const Conta
 template <size_t kTangential>
 void Neighbours<kTangential>::SetHold(const Reduction<kTangential>& reduction,
                                       const ContactErrors<kTangential>& errors) {
-  Vector<kTangential> hold = {};
   if constexpr (kTangential == 1) {
     const double wtt = reduction.w[0];
     stick_slope_ = wnn_;
     if (wtt > 0.0) {
-      hold[0] = coupling_[0] / wtt;
+      holding_[0] = coupling_[0] / wtt;
       stick_slope_ = DifferenceOfProducts(wtt, wnn_, coupling_[0], coupling_[0]) / wtt;
     }
   } else if (has_one_direction_) {
     const double along = coupling_[0] * direction_[0] + coupling_[1] * direction_[1];
-    for (size_t i = 0; i < 2; ++i) hold[i] = along / (root_trace_ * root_trace_) * direction_[i];
+    for (size_t i = 0; i < 2; ++i) holding_[i] = along / (root_trace_ * root_trace_) * direction_[i];
   } else {
     const bool is_full = roots_[0] > 0.0 && roots_[1] > 0.0;
     const double rho = is_full ? reduction.w[1] / roots_[0] / roots_[1] : 0.0;
@@ -198,19 +204,53 @@ void Neighbours<kTangential>::SetHold(const Reduction<kTangential>& reduction,
     Vector<2> scaled = {};
     for (size_t i = 0; i < 2; ++i) scaled[i] = roots_[i] > 0.0 ? coupling_[i] / roots_[i] : 0.0;
     for (size_t i = 0; i < 2; ++i) {
-      if (roots_[i] > 0.0) hold[i] = square * (scaled[i] - rho * scaled[1 - i]) / roots_[i];
+      if (roots_[i] > 0.0) holding_[i] = square * (scaled[i] - rho * scaled[1 - i]) / roots_[i];
     }
-    stick_slope_ = wnn_ - coupling_[0] * hold[0] - coupling_[1] * hold[1] - Weighted(square, slope_noise_);
+    stick_slope_ = wnn_ - coupling_[0] * holding_[0] - coupling_[1] * holding_[1] - Weighted(square, slope_noise_);
   }
-  hold_ = Length<kTangential>(hold);
-  Vector<kTangential> change = {};
+  hold_ = Length<kTangential>(holding_);
+  // That of B is off by da = Wtt^-1 (dwtn - dWtt hold - dWtt da). The 16 ulp of conditioning_ are in `rounding`.
+  Vector<kTangential> change = {}, of_wtt = {};
+  double spread = 0.0;
   for (size_t i = 0; i < kTangential; ++i) {
-    change[i] = errors.w[i][kTangential];
-    for (size_t j = 0; j < kTangential; ++j) change[i] += errors.w[i][j] * std::fabs(hold[j]);
+    change[i] = errors.w[i][kTangential] + 8.0 * kUnit * std::fabs(coupling_[i]);
+    for (size_t j = 0; j < kTangential; ++j) {
+      change[i] += errors.w[i][j] * std::fabs(holding_[j]);
+      of_wtt[i] += errors.w[i][j];
+    }
+    spread += inverse_roots_[i];
   }
-  const double norm = Norm(change);
-  for (size_t i = 0; i < kTangential; ++i) hold_error_ += Weighted(inverse_roots_[i], norm);
-  hold_error_ += 16.0 * kUnit * hold_;
+  const double rounding = Weighted(32.0 * kUnit * conditioning_ * conditioning_, hold_);
+  const double again = Weighted(spread, Norm(of_wtt));
+  hold_error_ = again < 1.0 ? (Weighted(spread, Norm(change)) + rounding) / (1.0 - again) : kInfinity;
+}
+
+// Slip along e = (c, s) turns to the left where (-s, c).(wtn - mu Wtt e) > 0. On both sides of u0 this looks for a
+// direction with v = hold.u < 0 from which slip of B surely turns back. Then v stays below 0 until slip stops.
+template <size_t kTangential>
+void Neighbours<kTangential>::SetStop(const Reduction<2>& reduction, const ContactErrors<2>& errors) {
+  constexpr int kDirections = 32;  // Slip that is caught between two of them is not known to be.
+  const auto& w = reduction.w;     // 11, 12, 13, 22, 23, 33
+  const Vector<2> u0 = {reduction.u0[0], reduction.u0[1]};
+  const double size = Length<2>(u0), of_u0 = errors.velocity[0] + errors.velocity[1] + 8.0 * kUnit * size;
+  const double trace = w[0] + w[3], steepest = coupling_size_ + most_friction_ * trace;
+  double of_turn = friction_error_ * trace + steepest * (16.0 * kUnit + 2.0 * of_u0 / size);
+  for (size_t i = 0; i < 2; ++i) of_turn += errors.w[i][2] + most_friction_ * (errors.w[i][0] + errors.w[i][1]);
+  const auto turns_back = [&](double side, double part) {
+    const double x = (1.0 - part) * u0[0] / size + part * side * holding_[1] / hold_;
+    const double y = (1.0 - part) * u0[1] / size - part * side * holding_[0] / hold_;
+    const double c = x / std::hypot(x, y), s = y / std::hypot(x, y);
+    const double turn =
+        c * (w[4] - kinetic_friction_ * (w[1] * c + w[3] * s)) - s * (w[2] - kinetic_friction_ * (w[0] * c + w[1] * s));
+    const bool is_beyond = side * (u0[0] * s - u0[1] * c) > of_u0 && holding_[0] * c + holding_[1] * s < -hold_error_;
+    return (part == 0.0 || is_beyond) && side * turn < -of_turn;
+  };
+  bool on_left = false, on_right = false;
+  for (int i = 0; i < kDirections; ++i) {
+    on_left = on_left || turns_back(1.0, static_cast<double>(i) / kDirections);
+    on_right = on_right || turns_back(-1.0, static_cast<double>(i) / kDirections);
+  }
+  stops_at_rest_ = on_left && on_right;
 }
 
 template <size_t kTangential>
@@ -331,24 +371,33 @@ class Comparison {
         u_error_(outcome.errors.tangential_m_s.value_or(kInfinity)),
         v_error_(outcome.errors.normal_m_s.value_or(kInfinity)) {}
 
-  // The changes of the impulses.
-  Impulses<kTangential> Bound() const;
+  // The changes of the impulses; nothing if B surely ends at rest.
+  std::optional<Impulses<kTangential>> Bound() const;
 
  private:
+  // True if B surely ends at rest, provided that it approaches.
+  bool Rests() const {
+    if (freedom_ == Freedom::kOneAlone) return near_.SurelyHolds() && Length<kTangential>(course_.u0) > 0.0;
+    const double e = outcome_.effective.restitution.value_or(0.0) + errors_.coefficients.restitution.value_or(0.0);
+    return near_.StopsAtRest() && (near_.SurelyHolds() || e == 0.0);
+  }
+  // True if slip of both stops as compression ends and starts again, in a direction that depends on W and mu alone. v of
+  // A then rises by one slope, and so does that of B, by as much less as v of two impacts from rest may differ.
+  bool Restarts() const { return near_.StopsAtRest() && near_.SurelySlips() && course_.stop.has_value(); }
+  double RestartSlope() const { return near_.SlidingSlope(course_.u1) - near_.SpeedGapAfter(1.0, 0.0); }
+  // Where v of A rises from 0. Slip may stop a little after v = 0.
+  double Start() const { return Restarts() ? std::max(*course_.stop, course_.compression) : course_.compression; }
   double LeastSlope(const Vector<kTangential>& u, double from, double step) const {
+    if (Restarts() && Start() <= from - step) return RestartSlope();
     const double reach = near_.root_trace() * near_.slip_pace() * step + u_error_;
     return near_.LeastSlope(u, reach, course_.stop.has_value() && near_.Holds() && *course_.stop <= from - step);
   }
   double CompressionShift() const {
-    return ProvedShift([&](double step) {
-      const double slope = LeastSlope(course_.u_compression, course_.compression, step);
-      return Over(near_.SpeedGap(course_.compression + step), slope);
-    });
-  }
-  // The shift of a locked contact, which slips until everything stops.
-  double LockShift() const {
-    const double slope = near_.SlidingSlope(course_.u0);
-    return ProvedShift([&](double step) { return Over(near_.SpeedGap(course_.compression + step), slope); });
+    const auto bound = [&](double step) {
+      const double slope = Restarts() ? RestartSlope() : LeastSlope(course_.u_compression, course_.compression, step);
+      return Over(near_.SpeedGap(Start() + step), slope);
+    };
+    return Start() - course_.compression + ProvedShift(bound);
   }
   double RestitutionShift(double compression_shift) const;
   // True if A and B slip in one direction, or stick, from the ends of their compression on.
@@ -385,8 +434,9 @@ double Comparison<kTangential>::RestitutionShift(double compression_shift) const
   const double compression = course_.compression + compression_shift;
   if (law_ == RestitutionLaw::kPoisson) return e * compression_shift + e_error * compression;
   const double slip_gap = near_.SlipGap(compression) + near_.slip_pace() * compression_shift;
-  const double lasting_gap = ReboundAlike(compression_shift, slip_gap) ? 0.0 : slip_gap;
   const double time = course_.total - course_.compression;
+  double lasting_gap = ReboundAlike(compression_shift, slip_gap) ? 0.0 : near_.lever() * slip_gap;
+  if (Restarts()) lasting_gap = std::fabs(course_.v1 - near_.SlidingSlope(course_.u1) * (course_.total - Start()));
   if (law_ == RestitutionLaw::kNewton) {
     const double goal_gap = e * errors_.velocity[kTangential] + e_error * std::fabs(course_.v0);
     return ProvedShift([&](double step) {
@@ -404,20 +454,19 @@ double Comparison<kTangential>::RestitutionShift(double compression_shift) const
 }
 
 template <size_t kTangential>
-Impulses<kTangential> Comparison<kTangential>::Bound() const {
+std::optional<Impulses<kTangential>> Comparison<kTangential>::Bound() const {
   Impulses<kTangential> change;
   change.fill(kInfinity);
-  const bool locks = outcome_.regime == Regime::kLocked;
   if (!course_.is_known || !(near_.SpeedGap(0.0) < -0.5 * course_.v0)) return change;
-  const bool both_lock = freedom_ == Freedom::kOneAlone && near_.SurelyHolds() && Length<kTangential>(course_.u0) > 0.0;
-  if (locks && !both_lock) return change;
-  const double compression_shift = locks ? LockShift() : CompressionShift();
-  const double shift = compression_shift + (locks ? 0.0 : RestitutionShift(compression_shift));
+  if (Rests()) return std::nullopt;
+  if (outcome_.regime == Regime::kLocked) return change;
+  const double compression_shift = CompressionShift();
+  const double shift = compression_shift + RestitutionShift(compression_shift);
   const double last = course_.total + shift;
   if (!(last <= most_tau_)) return change;
   const double slip_gap = near_.SlipGap(last) + near_.slip_pace() * shift;
-  if (!locks && near_.StaticFrictionDecides() && MayRest(near_.root_trace() * slip_gap + u_error_)) return change;
-  const bool same_friction = locks || !near_.has_friction() || SlideOneWay(slip_gap);
+  if (near_.StaticFrictionDecides() && MayRest(near_.root_trace() * slip_gap + u_error_)) return change;
+  const bool same_friction = !near_.has_friction() || SlideOneWay(slip_gap);
   for (size_t i = 0; i < kTangential; ++i) {
     const double gap = same_friction ? errors_.coefficients.kinetic_friction * last : near_.ImpulseGap(i, last);
     change[i] = WithRoundingMargin(gap + near_.most_friction() * shift);
@@ -429,9 +478,9 @@ Impulses<kTangential> Comparison<kTangential>::Bound() const {
 }  // namespace
 
 template <size_t kTangential>
-Impulses<kTangential> ImpulseChanges(const Reduction<kTangential>& reduction, RestitutionLaw law,
-                                     const ContactErrors<kTangential>& errors, Freedom freedom,
-                                     const Outcome& outcome) {
+std::optional<Impulses<kTangential>> ImpulseChanges(const Reduction<kTangential>& reduction, RestitutionLaw law,
+                                                    const ContactErrors<kTangential>& errors, Freedom freedom,
+                                                    const Outcome& outcome) {
   Impulses<kTangential> change = {};
   const double v_error = errors.velocity[kTangential];
   if (outcome.regime == Regime::kSeparating && (v_error == 0.0 || reduction.v0 > v_error)) return change;
@@ -442,9 +491,9 @@ Impulses<kTangential> ImpulseChanges(const Reduction<kTangential>& reduction, Re
   return change;
 }
 
-template Impulses<1> ImpulseChanges<1>(const Reduction<1>&, RestitutionLaw, const ContactErrors<1>&, Freedom,
-                                       const Outcome&);
-template Impulses<2> ImpulseChanges<2>(const Reduction<2>&, RestitutionLaw, const ContactErrors<2>&, Freedom,
-                                       const Outcome&);
+template std::optional<Impulses<1>> ImpulseChanges<1>(const Reduction<1>&, RestitutionLaw, const ContactErrors<1>&,
+                                                      Freedom, const Outcome&);
+template std::optional<Impulses<2>> ImpulseChanges<2>(const Reduction<2>&, RestitutionLaw, const ContactErrors<2>&,
+                                                      Freedom, const Outcome&);
 
 }  // namespace ricochet

@@ -9,13 +9,14 @@
 // returns to 0 in between. The errors of A itself come on top. No bound is known, and it is infinite, where the model
 // is not that of a rigid contact under Coulomb's law, where static friction alone holds the contact or may do so, where
 // rounding may decide whether the contact approaches or locks, and where Wtt is singular by anything but rows that are
-// 0 and a single free coordinate.
+// 0 and a single free coordinate. One or two free coordinates alone lock where B surely does.
 
 #ifndef RICOCHET_CORE_ANSWER_IMPULSE_CHANGES_H_
 #define RICOCHET_CORE_ANSWER_IMPULSE_CHANGES_H_
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "core/contact/reduction.h"
 #include "core/models/restitution_law.h"
@@ -38,14 +39,17 @@ using Impulses = std::array<double, kTangential + 1>;
 // What moves the contact point, of A and of B alike.
 enum class Freedom {
   kMany,             // Two free coordinates or more.
+  kTwoAlone,         // Two, where nothing else moves: v is a multiple of the part of u along one direction.
   kOneBesideOthers,  // One free coordinate, so that W = y y^T. Coordinates that are held, or the surface, move, too.
   kOneAlone,         // The same where nothing else moves: (u, v) = y q', and both impacts lock where one does.
 };
 
-// The outcome is that of the reduction, with its timeline and its effective coefficients.
+// The outcome is that of the reduction, with its timeline and its effective coefficients. Returns nothing if B surely
+// ends with all free coordinates at rest.
 template <size_t kTangential>
-Impulses<kTangential> ImpulseChanges(const Reduction<kTangential>& reduction, RestitutionLaw law,
-                                     const ContactErrors<kTangential>& errors, Freedom freedom, const Outcome& outcome);
+std::optional<Impulses<kTangential>> ImpulseChanges(const Reduction<kTangential>& reduction, RestitutionLaw law,
+                                                    const ContactErrors<kTangential>& errors, Freedom freedom,
+                                                    const Outcome& outcome);
 
 }  // namespace ricochet
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/answer/impulse_changes.h"
@@ -66,29 +67,30 @@ ContactErrors<kTangential> ErrorsOf(const Scene& scene, const Reduction<kTangent
 
 // Returns what moves the contact, which does not depend on the numbers of M and J.
 Freedom FreedomOf(const Scene& scene, const Mechanism& mechanism, const std::vector<bool>& is_free) {
-  if (std::count(is_free.begin(), is_free.end(), true) != 1) return Freedom::kMany;
-  for (size_t i = 0; i < is_free.size(); ++i) {
-    if (!is_free[i] && mechanism.rates[i] != 0.0) return Freedom::kOneBesideOthers;
-  }
-  return scene.surface_velocity.has_value() ? Freedom::kOneBesideOthers : Freedom::kOneAlone;
+  const auto count = std::count(is_free.begin(), is_free.end(), true);
+  bool is_alone = !scene.surface_velocity.has_value();
+  for (size_t i = 0; i < is_free.size(); ++i) is_alone = is_alone && (is_free[i] || mechanism.rates[i] == 0.0);
+  if (count == 1) return is_alone ? Freedom::kOneAlone : Freedom::kOneBesideOthers;
+  return count == 2 && is_alone ? Freedom::kTwoAlone : Freedom::kMany;
 }
 
-// The errors of the impulses: those of the model, and what errors of its contact add.
+// The errors of the impulses: those of the model, and what errors of its contact add. Nothing if all surely stops.
 template <size_t kTangential>
-Impulses<kTangential> TotalErrors(const Scene& scene, const Reduction<kTangential>& reduction,
-                                  const MechanismErrors& errors, Freedom freedom, const Outcome& outcome) {
-  Impulses<kTangential> sum = ImpulseChanges(reduction, LawAndCoefficientOf(scene.restitution).law,
-                                             ErrorsOf(scene, reduction, errors), freedom, outcome);
-  if (outcome.regime == Regime::kSeparating || outcome.regime == Regime::kLocked) return sum;
-  for (size_t i = 0; i < kTangential; ++i) sum[i] += outcome.errors.tangential_n_s.value_or(kInfinity);
-  sum[kTangential] += outcome.errors.normal_total_n_s.value_or(kInfinity);
+std::optional<Impulses<kTangential>> TotalErrors(const Scene& scene, const Reduction<kTangential>& reduction,
+                                                 const MechanismErrors& errors, Freedom freedom,
+                                                 const Outcome& outcome) {
+  std::optional<Impulses<kTangential>> sum = ImpulseChanges(reduction, LawAndCoefficientOf(scene.restitution).law,
+                                                            ErrorsOf(scene, reduction, errors), freedom, outcome);
+  if (outcome.regime == Regime::kSeparating || !sum.has_value()) return sum;
+  for (size_t i = 0; i < kTangential; ++i) (*sum)[i] += outcome.errors.tangential_n_s.value_or(kInfinity);
+  (*sum)[kTangential] += outcome.errors.normal_total_n_s.value_or(kInfinity);
   return sum;
 }
 
 // Returns |x y|, where 0 times infinity counts as 0.
 double Product(double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : std::fabs(x) * std::fabs(y); }
 
-// A mechanism whose one coordinate locks is at rest, whatever errors its impulses have.
+// A mechanism whose free coordinates all stop is at rest, whatever errors its impulses have.
 void SetErrorsAtRest(const Mechanism& mechanism, Outcome& outcome) {
   const size_t n = mechanism.rates.size();
   for (size_t i = 0; i < n; ++i) {
@@ -112,11 +114,9 @@ void Set(const Scene& scene, const Reduction<kTangential>& reduction, Outcome& o
   const MechanismErrors errors(mechanism);
   std::vector<bool> is_free(n);
   for (const Eigen::Index i : FreeCoordinates(mechanism)) is_free[static_cast<size_t>(i)] = true;
-  const Impulses<kTangential> of_impulse =
-      TotalErrors(scene, reduction, errors, FreedomOf(scene, mechanism, is_free), outcome);
-  if (outcome.regime == Regime::kLocked && of_impulse[kTangential] < kInfinity) {
-    return SetErrorsAtRest(mechanism, outcome);
-  }
+  const auto total = TotalErrors(scene, reduction, errors, FreedomOf(scene, mechanism, is_free), outcome);
+  if (!total.has_value()) return SetErrorsAtRest(mechanism, outcome);
+  const Impulses<kTangential>& of_impulse = *total;
   Impulses<kTangential> impulse;
   std::copy_n(outcome.impulse.tangential_n_s.begin(), kTangential, impulse.begin());
   impulse[kTangential] = outcome.impulse.normal_total_n_s;

@@ -5,10 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
+#include <optional>
 
 #include "ricochet/solver.h"
+#include "tests/support/claims/claims.h"
 #include "tests/support/claims/mechanism_claims.h"
+#include "tests/support/scenes/random_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
@@ -49,6 +53,110 @@ TEST(RatesErrorsTest, ClaimNoLessThanTheyAreForOneFreeCoordinateInSpace) {
 }
 
 Outcome Solve(const Scene& scene) { return LocalSolver().Solve({.scene = scene})->outcome; }
+
+// Two coordinates z of a contact in space with M = diag(1, 1/8), u = z' and v = z1'/2, written as z = (q1 + q2, q2). Slip
+// from (-1, 1/4) turns towards (-1, 0) and stops as compression ends.
+Scene TwoCoordinates(double friction) {
+  return {.system = Mechanism{.mass_matrix = {1.0, 1.0, 1.0, 1.125},
+                              .jacobian = {1.0, 1.0, 0.0, 1.0, 0.5, 0.5},
+                              .rates = {-1.25, 0.25}},
+          .friction = {.kinetic_coefficient = friction},
+          .restitution = NewtonCoefficient{0.5}};
+}
+
+TEST(RatesErrorsTest, AreKnownWhereTwoCoordinatesLock) {
+  const Outcome outcome = Solve(TwoCoordinates(1.0));
+  EXPECT_EQ(outcome.regime, Regime::kLocked);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_LT(outcome.errors.rates_after[i], 1e-13);
+    EXPECT_LE(std::fabs(outcome.rates_after[i]), outcome.errors.rates_after[i]);
+    EXPECT_LT(outcome.errors.momentum_change[i], 1e-12);
+  }
+  EXPECT_NEAR(outcome.momentum_change[0], 1.0, outcome.errors.momentum_change[0]);
+  EXPECT_NEAR(outcome.momentum_change[1], 0.96875, outcome.errors.momentum_change[1]);
+}
+
+// wtn = (1/2, 0), so that slip starts again along (1, 0), until v = 1/4.
+TEST(RatesErrorsTest, AreKnownWhereSlipOfTwoCoordinatesReversesAsCompressionEnds) {
+  const Outcome outcome = Solve(TwoCoordinates(0.25));
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_LT(outcome.errors.rates_after[i], 1e-9);
+    EXPECT_NEAR(outcome.rates_after[i], i == 0 ? 0.5 : 0.0, outcome.errors.rates_after[i]);
+  }
+}
+
+using Pair = Eigen::Matrix<long double, 2, 1>;
+using Square = Eigen::Matrix<long double, 2, 2>;
+
+// The rates after an impact of two coordinates in space under Newton's law whose slip stops as compression ends; nothing
+// where it does not. With v = a.u, slip e turns by the sign of e'.Wtt (a - mu e), e' across e, wherever it is.
+std::optional<Pair> RatesAfterStop(const Mechanism& mechanism, long double friction, long double restitution) {
+  Square mass, tangential;
+  Pair normal, rates;
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      mass(i, j) = mechanism.mass_matrix[static_cast<size_t>(2 * i + j)];
+      tangential(i, j) = mechanism.jacobian[static_cast<size_t>(2 * i + j)];
+    }
+    normal(i) = mechanism.jacobian[static_cast<size_t>(4 + i)];
+    rates(i) = mechanism.rates[static_cast<size_t>(i)];
+  }
+  const Square wtt = tangential * mass.inverse() * tangential.transpose();
+  const Pair a = tangential.transpose().inverse() * normal;
+  const Pair u0 = tangential * rates;
+  const auto direction = [](long double angle) { return Pair(std::cos(angle), std::sin(angle)); };
+  const auto turn = [&](long double angle) {
+    const Pair e = direction(angle);
+    return Pair(-e(1), e(0)).dot(wtt * (a - friction * e));
+  };
+  long double angle = std::atan2(u0(1), u0(0));
+  const long double step = std::copysign(1e-3L, turn(angle));
+  while (step * turn(angle) > 0.0L) {
+    angle += step;
+    if (a.dot(direction(angle)) >= 0.0L) return std::nullopt;
+  }
+  if (a.norm() <= friction) return Pair(0.0L, 0.0L);
+  // Slip starts again along e with Wtt (a - mu e) = h e, that is (h + mu Wtt) e = Wtt a, and h > 0.
+  const auto along = [&](long double h) -> Pair {
+    return (h * Square::Identity() + friction * wtt).inverse() * wtt * a;
+  };
+  long double low = 0.0L, high = (wtt * a).norm();
+  for (int i = 0; i < 80; ++i) {
+    const long double middle = 0.5L * (low + high);
+    (along(middle).norm() > 1.0L ? low : high) = middle;
+  }
+  return tangential.inverse() * along(low) * (-restitution * a.dot(u0) / a.dot(along(low)));
+}
+
+TEST(RatesErrorsTest, ClaimNoLessThanTheyAreWhereSlipOfTwoCoordinatesStopsAsCompressionEnds) {
+  RandomScenes random(kSeed);
+  ClaimTally tally;
+  for (int i = 0; i < 1000; ++i) {
+    Mechanism mechanism = {.jacobian = random.Three(1.0)};
+    const Eigen::MatrixXd mass = mechanism_claims::MassOf(2, 3.0, random);
+    mechanism.mass_matrix.assign(mass.data(), mass.data() + 4);
+    for (const double entry : random.Three(1.0)) mechanism.jacobian.push_back(entry);
+    mechanism.rates = {random.Uniform(-2.0, 2.0), random.Uniform(-2.0, 2.0)};
+    const double v0 = mechanism.jacobian[4] * mechanism.rates[0] + mechanism.jacobian[5] * mechanism.rates[1];
+    if (v0 > 0.0) mechanism.rates = {-mechanism.rates[0], -mechanism.rates[1]};
+    const double friction = random.Power(-2.0, 1.0), restitution = random.Uniform(0.0, 1.0);
+    const Outcome outcome = Solve({.system = mechanism,
+                                   .friction = {.kinetic_coefficient = friction},
+                                   .restitution = NewtonCoefficient{restitution}});
+    const std::optional<Pair> exact = RatesAfterStop(mechanism, friction, restitution);
+    if (!exact.has_value()) {
+      // The error of a mechanism that is at rest is all of its rate.
+      EXPECT_NE(outcome.errors.rates_after[0], std::fabs(outcome.rates_after[0])) << "scene " << i;
+      continue;
+    }
+    for (size_t k = 0; k < 2; ++k) {
+      const long double error = std::fabs(outcome.rates_after[k] - (*exact)(static_cast<Eigen::Index>(k)));
+      tally.Add(outcome.errors.rates_after[k], static_cast<double>(error), "scene " + std::to_string(i));
+    }
+  }
+  EXPECT_GT(tally.count(), 300);
+  ExpectHonest(tally);
+}
 
 TEST(RatesErrorsTest, AreAFewRoundingsForAWellConditionedMechanism) {
   const Outcome outcome = Solve(With(Arm()));
