@@ -17,6 +17,7 @@ constexpr double kRangeRank = 8.0 * kEpsilon;
 template <typename Impact>
 void KeepWorks(const Impact& impact, SingleImpact& single) {
   single.ended = impact.Converged() && impact.regime != Regime::kWedged;
+  single.locked = impact.regime == Regime::kLocked;
   single.works = {.compression = impact.work_normal_compression,
                   .restitution = impact.work_normal_restitution,
                   .friction = impact.work_tangential_compression + impact.work_tangential_restitution,

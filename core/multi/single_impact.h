@@ -20,7 +20,8 @@ using ContactVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign,
 using ContactBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign, 3, 3>;
 
 struct SingleImpact {
-  bool ended = true;  // False if the contact jams, so that its impact has no end; nothing else is set then.
+  bool ended = true;    // False if the contact jams, so that its impact has no end; nothing else is set then.
+  bool locked = false;  // True if friction and the joints hold the contact at rest, so that its force need not fall.
   ContactVector impulse, velocity;
   ContactWorks works;
   // Errors of each component of the velocity, of each component of the impulse, and of each work, which may be

@@ -657,6 +657,8 @@ Attained SolveAlone(const Problem& problem) {
     result.end = MultiContactEnd::kWedged;
     return result;
   }
+  // The spring of a contact that is held stays compressed, and presses for ever.
+  if (impact.locked) result.end = MultiContactEnd::kWedged;
   result.v = impact.velocity;
   result.p = impact.impulse;
   result.slack.setConstant(impact.velocity_error);

@@ -489,7 +489,15 @@ TEST(HardMultiContactTest, ALockedPendulumStays) {
   locked.v << -1.0, -0.5;
   const Orders orders = FindOrders(locked, kNever);
   EXPECT_EQ(orders.outcomes.front().attained.v, Vector::Zero(2));
-  EXPECT_EQ(FindSprings(locked, std::nullopt, kNever).v, Vector::Zero(2));
+  const Attained springs = FindSprings(locked, std::nullopt, kNever);
+  EXPECT_EQ(springs.v, Vector::Zero(2));
+  EXPECT_EQ(springs.end, MultiContactEnd::kWedged);
+  // Beside a contact that it is not coupled to it takes the way through all events of springs.
+  Problem beside = {.d = 2, .k = 2, .w = Eigen::MatrixXd::Identity(4, 4), .v = Vector::Ones(4)};
+  beside.laws = {locked.laws.front(), locked.laws.front()};
+  beside.w.topLeftCorner(2, 2) = locked.w;
+  beside.v.head(2) = locked.v;
+  EXPECT_EQ(FindSprings(beside, std::nullopt, kNever).end, MultiContactEnd::kWedged);
 }
 
 MultiContactScene PairOfContacts(double w, double coupling, double v) {
