@@ -30,10 +30,13 @@ constexpr int64_t kMostModes = 6561;
 
 class Motion {
  public:
-  Motion(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped)
+  // The velocities are off by `push` times the bound on their rounding, to and fro from step to step.
+  Motion(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped,
+         double push = 0.0)
       : problem_(problem),
         mirror_(mirror),
         stopped_(stopped),
+        push_(push),
         k_(problem.k),
         rows_(2 * problem.k),
         result_(StartOf(problem)) {
@@ -44,8 +47,10 @@ class Motion {
 
   // The errors of all steps and events before any growth.
   double made() const { return made_; }
-  // True if the force of a plastic contact has fallen.
+  int64_t steps() const { return steps_; }
+  // True if the force of a plastic contact has fallen, and if friction changed its mode while it fell.
   bool has_fallen() const { return has_fallen_; }
+  bool friction_changed() const { return friction_changed_; }
 
   Attained Run(int64_t budget) {
     Refresh();
@@ -77,6 +82,7 @@ class Motion {
     }
     v_.resize(rows_);
     noise_.resize(rows_);
+    push_ = -push_;
     for (int row = 0; row < rows_; ++row) {
       double sum = problem_.v(row), size = std::abs(sum);
       for (int j = 0; j < rows_; ++j) {
@@ -84,8 +90,8 @@ class Motion {
         sum += term;
         size += std::abs(term);
       }
-      v_(row) = sum;
       noise_(row) = kVelocityRounding * kEpsilon * size;
+      v_(row) = sum + push_ * noise_(row);
     }
   }
 
@@ -247,10 +253,30 @@ class Motion {
     return most;
   }
 
+  // What an error of one unit adds by moving the instant of a fall: until both paths have fallen, the force acts on in
+  // one of them, and the acceleration that says how far it falls changes. All in the metric of energy.
+  double ErrorOfDelay(const std::vector<int>& falling) const {
+    const int first = falling[0];
+    const Series& normal = flow_->velocity(problem_.N(first));
+    const double h = flow_->h(), acceleration = std::max(normal.c[1], 0.0) / h;
+    double mobility = 0.0, push = 0.0;
+    for (const int i : falling) {
+      mobility += flow_->NormalByForce(first, i);
+      push += roots_(problem_.N(i));
+      for (int l = 0; l < k_; ++l) push += std::abs(flow_->FrictionByForce(l, i)) * roots_(problem_.T(l));
+    }
+    double fall = state_.f[At(first)];
+    if (mobility > 0.0) fall = std::min(fall, 2.0 * acceleration / mobility);
+    const double change = 4.0 * std::abs(normal.c[2] / mobility) / (h * h);
+    return (push * fall + change / std::sqrt(problem_.laws[At(first)].stiffness)) * roots_(problem_.N(first)) /
+           acceleration;
+  }
+
   // Lets the forces fall, all by as much, until the integral of the normal acceleration over the fall is 0, or to 0.
   void Fall(const std::vector<int>& falling) {
     has_fallen_ = true;
     const int first = falling[0];
+    const double delayed = ErrorOfDelay(falling);
     double ratio = 0.0;
     double integral = 0.0;
     for (int piece = 0; piece < 8 * k_; ++piece) {
@@ -260,7 +286,7 @@ class Motion {
       for (int j = 0; j < k_; ++j) {
         if (!IsClosed(j)) continue;
         ratio = std::max(ratio, std::abs(flow_->NormalByForce(first, j) / slope) *
-                                    std::sqrt(problem_.laws[At(j)].stiffness / problem_.laws[At(first)].stiffness));
+                                    std::sqrt(flow_->stiffness(j) / problem_.laws[At(first)].stiffness));
       }
       const double reach = FallUntilFrictionChanges(falling);
       // integral + acceleration x + slope x^2/2 = 0
@@ -275,6 +301,7 @@ class Motion {
         if (state_.f[At(i)] <= 4.0 * kEpsilon * x) state_.f[At(i)] = 0.0;
       }
       if (ends || state_.f[At(first)] == 0.0) break;
+      friction_changed_ = true;
       // The forces move just beyond the change of friction, so that FindModes finds the modes after it.
       const double beyond = 0x1p-40 * state_.f[At(first)];
       for (const int i : falling) state_.f[At(i)] -= beyond;
@@ -284,7 +311,7 @@ class Motion {
       if (state_.f[At(i)] == 0.0) modes_[At(i)].normal = NormalMode::kOpen;
     }
     ++result_.events;
-    result_.error *= 2.0 + 2.0 * ratio * std::sqrt(static_cast<double>(k_));
+    result_.error *= 2.0 + 2.0 * ratio * std::sqrt(static_cast<double>(k_)) + delayed;
   }
 
   // --- Steps ---
@@ -456,7 +483,8 @@ class Motion {
     switch (event.keeps) {
       case Keeps::kApproaching:
       case Keeps::kParting: {
-        const double e = std::max(problem_.laws[At(i)].e, 0x1p-10);
+        // A plastic contact whose force has fallen is loaded again.
+        const double e = problem_.laws[At(i)].e > 0.0 ? problem_.laws[At(i)].e : 1.0;
         double acceleration = 0.0;
         for (int j = 0; j < k_; ++j) acceleration += flow_->NormalByForce(i, j) * flow_->force(j).At(s);
         added = 0.5 * std::sqrt(stiffness) / e * normal_error * normal_error / std::abs(acceleration);
@@ -578,6 +606,7 @@ class Motion {
   const Problem& problem_;
   const std::optional<Mirror> mirror_;
   absl::FunctionRef<bool()> stopped_;
+  double push_;         // Changes its sign with each step.
   const int k_, rows_;  // Contacts, and the numbers of all.
   Attained result_;
   SpringState state_;
@@ -593,7 +622,7 @@ class Motion {
   std::optional<double> beta_;
   double made_ = 0.0;  // The errors of all steps and events, none of them grown.
   int64_t steps_ = 0;
-  bool has_fallen_ = false;
+  bool has_fallen_ = false, friction_changed_ = false;
 };
 
 // The largest component of a velocity over the root of its mobility: its size in the metric of energy.
@@ -605,29 +634,26 @@ double SizeOf(const Problem& problem, const Vector& v) {
   return size;
 }
 
-// Replaces a bound on the error that has grown too large by an estimate: the errors of all steps, as much as a motion
-// that starts beside this one moves away from it.
-void EstimateError(const Problem& problem, absl::FunctionRef<bool()> stopped, int64_t budget, double made,
-                   Attained& result) {
-  constexpr double kBeside = 0x1p-30;
+// Replaces a bound on the error that has grown too large by an estimate: how far the motion ends beside itself if its
+// velocities are pushed to and fro at each step, by a part of the bound on their rounding. What an error becomes
+// depends on when it is made: a contact that unloads but is loaded again turns an error of its velocity into one of its
+// force that weighs 1/e more, which no error from before can show.
+void EstimateError(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped,
+                   const Motion& motion, Attained& result) {
+  constexpr double kPush = 0.25;  // Twice that still counts as rounding.
   constexpr double kMargin = 16.0;
-  Problem beside = problem;
-  Vector push = problem.v;
-  for (int j = 0; j < push.size(); ++j) {
-    push(j) = problem.w(j, j) > 0.0 ? kBeside * (j % 3 == 0 ? 1.0 : -0.7) * problem.v(j) / problem.w(j, j) : 0.0;
-  }
-  beside.v += problem.w * push;
-  const Attained other = Motion(beside, std::nullopt, stopped).Run(budget);
-  const double start = SizeOf(problem, beside.v - problem.v);
-  const double growth = start > 0.0 ? SizeOf(problem, other.v - result.v) / start : 1.0;
-  result.error = std::min(result.error, kMargin * std::max(growth, 1.0) * made);
+  const Attained other = Motion(problem, mirror, stopped, kPush).Run(std::max(2 * result.events, motion.steps()));
+  const double estimate = std::max(SizeOf(problem, other.v - result.v) / kPush, kMargin * motion.made());
+  result.error = other.v.allFinite() ? std::min(estimate, result.error) : std::numeric_limits<double>::infinity();
   result.error_is_proved = false;
 }
 
 // Compares a plastic impact with two of small coefficients. It is their limit only if friction does not stop and start
-// slip while a force falls; where they end elsewhere, theirs is the answer, with an error estimated from the two.
+// slip while a force falls; where they end elsewhere, theirs is the answer, with an error estimated from the two. If
+// `friction_changed`, the impact may end beside the limit by as much as it differs from the smaller of the two.
 void CompareWithSmallCoefficients(const Problem& problem, const std::optional<Mirror>& mirror,
-                                  absl::FunctionRef<bool()> stopped, int64_t budget, Attained& result) {
+                                  absl::FunctionRef<bool()> stopped, int64_t budget, bool friction_changed,
+                                  Attained& result) {
   constexpr double kAgree = 1e-5;
   constexpr double kMargin = 4.0;
   const auto solve = [&](double coefficient) {
@@ -639,7 +665,13 @@ void CompareWithSmallCoefficients(const Problem& problem, const std::optional<Mi
   };
   Attained small = solve(0x1p-26);
   const double agree = kAgree * SizeOf(problem, problem.v);
-  if (SizeOf(problem, small.v - result.v) <= agree) return;
+  const double beside = SizeOf(problem, small.v - result.v);
+  if (beside <= agree) {
+    if (!friction_changed) return;
+    result.error += kMargin * beside;
+    result.error_is_proved = false;
+    return;
+  }
   const double apart = SizeOf(problem, small.v - solve(0x1p-22).v);
   result = std::move(small);
   result.error = kMargin * std::sqrt(2.0 * problem.k) * std::max(apart, agree);
@@ -681,8 +713,10 @@ Attained FindSprings(const Problem& given, const std::optional<Mirror>& mirror, 
   Motion motion(problem, mirror, stopped);
   Attained result = motion.Run(budget);
   const double large = kLargeError * SizeOf(problem, problem.v);
-  if (!result.error_is_proved || result.error > large) EstimateError(problem, stopped, budget, motion.made(), result);
-  if (motion.has_fallen()) CompareWithSmallCoefficients(problem, mirror, stopped, budget, result);
+  if (!result.error_is_proved || result.error > large) EstimateError(problem, mirror, stopped, motion, result);
+  if (motion.has_fallen()) {
+    CompareWithSmallCoefficients(problem, mirror, stopped, budget, motion.friction_changed(), result);
+  }
   if (dropped > 0.0) {
     constexpr double kMargin = 16.0;
     result.error += kMargin * problem.k * dropped * SizeOf(problem, problem.v);

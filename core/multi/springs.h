@@ -4,7 +4,8 @@
 // mode by mode (core/multi/spring_flow.h). At an event the modes are those in which the first coefficient of every
 // condition that is not zero has the right sign. With e = 0 a force falls at once, as e -> 0 has it. The path is unique
 // and depends continuously on all numbers, and energy never rises. The error is a bound that is carried along the path;
-// it is an estimate where a contact only grazes, and where small coefficients end elsewhere than those that are 0.
+// it is an estimate where it has grown too large, where a contact only grazes, where friction changes while a force
+// falls, and where small coefficients end elsewhere than those that are 0.
 // docs/theory/several_contacts.md derives all of it.
 // Cost: some 20 us for two contacts, growing with the events and the cube of the contacts.
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "absl/strings/str_cat.h"
@@ -68,6 +69,48 @@ TEST(MultiContactOracleTest, FeetThatDivideFrictionAnewSlipOnceItIsUsedUp) {
   EXPECT_EQ(claims.springs.count(), 1);
   EXPECT_EQ(claims.springs.broken(), 0);
   EXPECT_EQ(claims.energy.broken(), 0);
+}
+
+void ExpectWithinErrors(const Problem& problem, const Attained& found, const ExactOutcome& exact) {
+  for (int j = 0; j < found.v.size(); ++j) {
+    EXPECT_NEAR(found.v(j), exact.v[static_cast<size_t>(j)], found.ErrorOf(problem, j)) << j;
+  }
+}
+
+// A ball stops at a wall that gives nearly nothing back, and a second ball presses it on. Each time the wall lets go it
+// is loaded again, and what rounding has made of v_n = 1e-6 meanwhile weighs a million times more.
+TEST(MultiContactOracleTest, AnErrorOfAContactThatIsLoadedAgainWeighsMore) {
+  for (const double stiffness : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
+    SCOPED_TRACE(stiffness);
+    Problem balls = {.d = 2, .k = 2, .w = Eigen::MatrixXd::Zero(4, 4), .v = Vector::Zero(4)};
+    balls.laws = {{.e = 0.984375, .stiffness = 0.0625}, {.e = 1e-6, .stiffness = stiffness}};
+    balls.w(1, 1) = 1.296875;
+    balls.w(1, 3) = balls.w(3, 1) = -0.25;
+    balls.w(3, 3) = 0.25;
+    balls.v(1) = 0.375;
+    balls.v(3) = -0.484375;
+    const Attained found = FindSprings(balls, std::nullopt, [] { return false; });
+    const auto exact = SpringsExactly(balls, 400);
+    ASSERT_TRUE(exact.has_value());
+    ExpectWithinErrors(balls, found, *exact);
+    EXPECT_LT(found.ErrorOf(balls, 1), 1e-6);
+  }
+}
+
+// Friction changes its mode while the force of a plastic contact falls. The limit of small coefficients is 3e-9 away.
+TEST(MultiContactOracleTest, FrictionThatChangesWhileAForceFallsMakesAnError) {
+  constexpr uint64_t kSeed = 83;
+  std::mt19937_64 random(kSeed);
+  Problem problem = RandomMultiContact(random, /*springs=*/true);
+  problem.laws = {{.mu = 0.1875, .e = 0.21875, .stiffness = 0.125},
+                  {.mu = 0.75, .e = 0.0, .stiffness = 256.0},
+                  {.mu = 0.0, .e = 1.0, .stiffness = 64.0}};
+  const Attained found = FindSprings(problem, std::nullopt, [] { return false; });
+  for (ContactLaw& law : problem.laws) law.e = std::max(law.e, 0x1p-44);
+  const auto exact = SpringsExactly(problem, 600);
+  ASSERT_TRUE(exact.has_value());
+  ExpectWithinErrors(problem, found, *exact);
+  EXPECT_FALSE(found.error_is_proved);
 }
 
 }  // namespace
