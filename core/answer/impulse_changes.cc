@@ -381,8 +381,8 @@ class Comparison {
     const double e = outcome_.effective.restitution.value_or(0.0) + errors_.coefficients.restitution.value_or(0.0);
     return near_.StopsAtRest() && (near_.SurelyHolds() || e == 0.0);
   }
-  // True if slip of both stops as compression ends and starts again, in a direction that depends on W and mu alone. v of
-  // A then rises by one slope, and so does that of B, by as much less as v of two impacts from rest may differ.
+  // True if slip of both stops as compression ends and starts again, in a direction that depends on W and mu alone. v
+  // of A then rises by one slope, and so does that of B, by as much less as v of two impacts from rest may differ.
   bool Restarts() const { return near_.StopsAtRest() && near_.SurelySlips() && course_.stop.has_value(); }
   double RestartSlope() const { return near_.SlidingSlope(course_.u1) - near_.SpeedGapAfter(1.0, 0.0); }
   // Where v of A rises from 0. Slip may stop a little after v = 0.

@@ -54,8 +54,8 @@ TEST(RatesErrorsTest, ClaimNoLessThanTheyAreForOneFreeCoordinateInSpace) {
 
 Outcome Solve(const Scene& scene) { return LocalSolver().Solve({.scene = scene})->outcome; }
 
-// Two coordinates z of a contact in space with M = diag(1, 1/8), u = z' and v = z1'/2, written as z = (q1 + q2, q2). Slip
-// from (-1, 1/4) turns towards (-1, 0) and stops as compression ends.
+// Two coordinates z of a contact in space with M = diag(1, 1/8), u = z' and v = z1'/2, written as z = (q1 + q2, q2).
+// Slip from (-1, 1/4) turns towards (-1, 0) and stops as compression ends.
 Scene TwoCoordinates(double friction) {
   return {.system = Mechanism{.mass_matrix = {1.0, 1.0, 1.0, 1.125},
                               .jacobian = {1.0, 1.0, 0.0, 1.0, 0.5, 0.5},
@@ -88,8 +88,8 @@ TEST(RatesErrorsTest, AreKnownWhereSlipOfTwoCoordinatesReversesAsCompressionEnds
 using Pair = Eigen::Matrix<long double, 2, 1>;
 using Square = Eigen::Matrix<long double, 2, 2>;
 
-// The rates after an impact of two coordinates in space under Newton's law whose slip stops as compression ends; nothing
-// where it does not. With v = a.u, slip e turns by the sign of e'.Wtt (a - mu e), e' across e, wherever it is.
+// The rates after an impact of two coordinates in space under Newton's law whose slip stops as compression ends;
+// nothing where it does not. With v = a.u, slip e turns by the sign of e'.Wtt (a - mu e), e' across e, wherever it is.
 std::optional<Pair> RatesAfterStop(const Mechanism& mechanism, long double friction, long double restitution) {
   Square mass, tangential;
   Pair normal, rates;
