@@ -149,7 +149,10 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
       rank == 3 || VelocityIsInRange(SpatialReduction{.w = problem.Delassus().w, .u0 = problem.u0, .v0 = problem.v0});
   // Where Wtt = 0 friction moves nothing, and any number serves.
   const T smallest = w.tangent_is_singular ? largest : w.TangentDeterminant() / largest;
-  keeps_part = w.tangent_is_singular && !velocity_in_range ? T{1} : T{0};
+  // A contact that moves in a plane through the normal has no slip beside it, whatever moves v besides impulses.
+  const bool in_plane = problem.w12 == 0.0 && ((problem.w22 == 0.0 && problem.w23 == 0.0 && problem.u0[1] == 0.0) ||
+                                               (problem.w11 == 0.0 && problem.w13 == 0.0 && problem.u0[0] == 0.0));
+  keeps_part = w.tangent_is_singular && !velocity_in_range && !in_plane ? T{1} : T{0};
   smallest_root = largest > T{0} ? std::sqrt(std::max(smallest, kEpsilon<T> * largest)) : T{1};
   normal_root = std::sqrt(w.w33);
   steepest = w.w33 + mu * coupling;

@@ -904,5 +904,26 @@ TEST(SpatialTest, AnErrorThatIsNoNumberIsUnknown) {
   EXPECT_EQ(Solve(problem).error_estimate, std::numeric_limits<double>::infinity());
 }
 
+// One free coordinate in the plane of t1 and n, beside a coordinate that is held and moves. With f = -0.1 tau, u grows
+// by 0.4 tau and v by 0.2 tau, so that v vanishes at tau = 5, where u has grown by 2.
+TEST(SpatialTest, ACoordinateInAPlaneBesideOneThatIsHeldKeepsNoSlipBeside) {
+  Problem problem = {.w11 = 1.0,
+                     .w13 = 0.5,
+                     .w33 = 0.25,
+                     .v0 = -1.0,
+                     .mu = 0.1,
+                     .mu_static = 0.1,
+                     .law = RestitutionLaw::kEnergetic,
+                     .tolerance = 1e-10};
+  const Impact from_rest = Solve(problem);
+  EXPECT_NEAR(from_rest.u1[0], 2.0, from_rest.errors.u);
+  EXPECT_LT(from_rest.errors.u, 1e-14);
+  problem.u0 = {-0.3, 0.0};
+  // u vanishes at tau = 0.3/0.6, where v is 0.3*0.5 - 1; from there v needs 0.85/0.2, in which u grows by 0.4 of that.
+  const Impact reversal = Solve(problem);
+  EXPECT_NEAR(reversal.u1[0], 1.7, reversal.errors.u);
+  EXPECT_LT(reversal.errors.u, 1e-14);
+}
+
 }  // namespace
 }  // namespace ricochet::spatial
