@@ -802,7 +802,8 @@ def _row_count(lengths: list[int]) -> int:
 def _equally_long(arrays: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
     rows = _row_count([len(array) for array in arrays.values()])
     wrong = [
-        Violation(name, f"has shape {array.shape}: must be one number, or {rows} as the longest array")
+        Violation(name, f"has shape {array.shape}: must be one number, or {rows} as the longest array"
+                  + (f"; the columns of a matrix are stated as {name}[0], {name}[1], ..." if array.ndim > 1 else ""))
         for name, array in arrays.items()
         if array.ndim != 1 or len(array) not in (1, rows)
     ]

@@ -222,6 +222,8 @@ class Frames(Case):
                 self.assertIsInstance(str(table), str)
         self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: [], "a": [0.3, 0.4]}, NEWTON), MU,
                      "must be one number, or 2 as the longest array")
+        self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: np.ones((4, 2))}, NEWTON), MU,
+                     f"the columns of a matrix are stated as {MU}[0], {MU}[1]")
         self.refused(lambda: ricochet.sweep(PENDULUM, {MU: []}, NEWTON), f"{MU}.list.values", "is empty")
         wrong = {"pendulum": {**PENDULUM["pendulum"], "a_m": -1}}
         for columns in ({}, {"normal_after_m_s": []}, {"rates_after": [[]]}):

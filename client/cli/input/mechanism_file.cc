@@ -155,7 +155,10 @@ absl::StatusOr<Mechanism> Read(const std::string& path) {
   const absl::StatusOr<Array> jacobian = ReadArray(archive->get(), "J");
   if (!jacobian.ok()) return jacobian.status();
   status = check("J", *jacobian, jacobian->shape == Shape{2, n} || jacobian->shape == Shape{3, n},
-                 absl::StrCat("be (2, ", n, ") with rows t, n or (3, ", n, ") with rows t1, t2, n"));
+                 absl::StrCat("be (2, ", n, ") with rows t, n or (3, ", n, ") with rows t1, t2, n",
+                              !jacobian->shape.empty() && jacobian->shape[0] > 3
+                                  ? "; `ricochet multicontact --scene` takes several contacts"
+                                  : ""));
   if (!status.ok()) return status;
   return Mechanism{.mass_matrix = mass->numbers, .jacobian = jacobian->numbers, .rates = rates->numbers};
 }
