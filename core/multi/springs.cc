@@ -634,6 +634,26 @@ double SizeOf(const Problem& problem, const Vector& v) {
   return size;
 }
 
+// Adds to the errors by how much the result differs from another that has about the same error, or `least` of the size
+// of a velocity if that is more.
+void AddDifference(const Problem& problem, const Attained& other, double least, Attained& result) {
+  constexpr double kMargin = 4.0;
+  const auto widen = [](double least_change, double change, double& error) {
+    error += kMargin * std::max(least_change, std::abs(change));
+  };
+  widen(std::sqrt(2.0 * problem.k) * least, std::sqrt(2.0 * problem.k) * SizeOf(problem, other.v - result.v),
+        result.error);
+  for (int i = 0; i < problem.k; ++i) {
+    const int n = problem.N(i);
+    const ContactWorks &works = result.works[At(i)], &others = other.works[At(i)];
+    widen(least / std::sqrt(problem.w(n, n)), other.p(n) - result.p(n), result.normal_impulse_error(i));
+    for (const auto work : {&ContactWorks::compression, &ContactWorks::restitution, &ContactWorks::friction}) {
+      widen(least * SizeOf(problem, problem.v), others.*work - works.*work, result.work_error);
+    }
+  }
+  result.error_is_proved = false;
+}
+
 // Replaces a bound on the error that has grown too large by an estimate: how far the motion ends beside itself if its
 // velocities are pushed to and fro at each step, by a part of the bound on their rounding. What an error becomes
 // depends on when it is made: a contact that unloads but is loaded again turns an error of its velocity into one of its
@@ -641,11 +661,14 @@ double SizeOf(const Problem& problem, const Vector& v) {
 void EstimateError(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped,
                    const Motion& motion, Attained& result) {
   constexpr double kPush = 0.25;  // Twice that still counts as rounding.
-  constexpr double kMargin = 16.0;
+  constexpr double kMargin = 4.0;
   const Attained other = Motion(problem, mirror, stopped, kPush).Run(std::max(2 * result.events, motion.steps()));
-  const double estimate = std::max(SizeOf(problem, other.v - result.v) / kPush, kMargin * motion.made());
-  result.error = other.v.allFinite() ? std::min(estimate, result.error) : std::numeric_limits<double>::infinity();
-  result.error_is_proved = false;
+  const double bound = std::exchange(result.error, 0.0);
+  AddDifference(problem, other, kMargin * motion.made(), result);
+  if (std::isfinite(bound)) result.error = std::min(result.error, bound);
+  if (other.v.allFinite()) return;
+  result.error = result.work_error = std::numeric_limits<double>::infinity();
+  result.normal_impulse_error.setConstant(result.error);
 }
 
 // Compares a plastic impact with two of small coefficients. It is their limit only if friction does not stop and start
@@ -655,7 +678,6 @@ void CompareWithSmallCoefficients(const Problem& problem, const std::optional<Mi
                                   absl::FunctionRef<bool()> stopped, int64_t budget, bool friction_changed,
                                   Attained& result) {
   constexpr double kAgree = 1e-5;
-  constexpr double kMargin = 4.0;
   const auto solve = [&](double coefficient) {
     Problem beside = problem;
     for (ContactLaw& law : beside.laws) {
@@ -665,17 +687,13 @@ void CompareWithSmallCoefficients(const Problem& problem, const std::optional<Mi
   };
   Attained small = solve(0x1p-26);
   const double agree = kAgree * SizeOf(problem, problem.v);
-  const double beside = SizeOf(problem, small.v - result.v);
-  if (beside <= agree) {
-    if (!friction_changed) return;
-    result.error += kMargin * beside;
-    result.error_is_proved = false;
-    return;
+  if (SizeOf(problem, small.v - result.v) > agree) {
+    result = std::move(small);
+    result.error = 0.0;
+    AddDifference(problem, solve(0x1p-22), agree, result);
+  } else if (friction_changed) {
+    AddDifference(problem, small, 0.0, result);
   }
-  const double apart = SizeOf(problem, small.v - solve(0x1p-22).v);
-  result = std::move(small);
-  result.error = kMargin * std::sqrt(2.0 * problem.k) * std::max(apart, agree);
-  result.error_is_proved = false;
 }
 
 // One contact alone does what the model of one contact says.
