@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "absl/functional/function_ref.h"
+#include "core/numerics/elementary.h"
 #include "core/numerics/products.h"
 #include "core/plan/perturbed_path.h"
 
@@ -239,7 +240,7 @@ void Neighbours<kTangential>::SetStop(const Reduction<2>& reduction, const Conta
   const auto turns_back = [&](double side, double part) {
     const double x = (1.0 - part) * u0[0] / size + part * side * holding_[1] / hold_;
     const double y = (1.0 - part) * u0[1] / size - part * side * holding_[0] / hold_;
-    const double c = x / std::hypot(x, y), s = y / std::hypot(x, y);
+    const double length = Hypot(x, y), c = x / length, s = y / length;
     const double turn =
         c * (w[4] - kinetic_friction_ * (w[1] * c + w[3] * s)) - s * (w[2] - kinetic_friction_ * (w[0] * c + w[1] * s));
     const bool is_beyond = side * (u0[0] * s - u0[1] * c) > of_u0 && holding_[0] * c + holding_[1] * s < -hold_error_;

@@ -101,11 +101,12 @@ class Fitter {
     if (model_.is_stopped()) return false;
     Minimum found = Minimize(start, all_free_, kFineSearch, model_);
     Approach(start, model_, found);
+    const bool is_best = number == 0 || found.objective < best_.objective - kAsGood;
     // The response lists a further start, which the request did not ask for, only if it led to a better fit.
-    if (number >= problem_.starts && !(found.objective < (1.0 - kLeastGain) * best_.objective)) return false;
+    const bool has_gained = is_best && found.objective < (1.0 - kLeastGain) * best_.objective;
+    if (number >= problem_.starts && !has_gained) return false;
     const bool has_start = std::isfinite(found.objective);
     response_.starts.push_back({start, found.at, found.objective, found.iterations, found.converged && has_start});
-    const bool is_best = number == 0 || found.objective < best_.objective - kAsGood;
     if (is_best) best_ = found;
     return is_best;
   }

@@ -108,7 +108,7 @@ absl::Status DrawWith(absl::StatusOr<Plot> plot, const PictureOptions& options) 
 }
 
 absl::Status DrawPicture(absl::StatusOr<Plot> plot, const PictureOptions& options) {
-  const absl::Status drawn = DrawWith(std::move(plot), options);
+  absl::Status drawn = DrawWith(std::move(plot), options);
   if (drawn.ok()) return drawn;
   return {drawn.code(),
           absl::StrCat("the numbers are complete, but ", options.file, " was not drawn: ", drawn.message())};

@@ -101,8 +101,8 @@ std::string Heading(const Outcome& outcome) {
 // Explains the line that MarkCompression draws, and the dots of a path that is not straight between its events.
 std::string Legend(const Outcome& outcome, bool is_straight) {
   std::vector<std::string> marks;
-  if (!is_straight) marks.push_back("dots: events, between which the path is curved");
-  if (outcome.impulse.normal_compression_n_s.has_value()) marks.push_back("dashed: compression ends");
+  if (!is_straight) marks.emplace_back("dots: events, between which the path is curved");
+  if (outcome.impulse.normal_compression_n_s.has_value()) marks.emplace_back("dashed: compression ends");
   return marks.empty() ? "" : absl::StrCat(" (", absl::StrJoin(marks, "; "), ")");
 }
 
