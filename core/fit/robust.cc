@@ -34,8 +34,10 @@ Sums NormalMeans(const Problem& problem) {
   const double scale = problem.loss_scale;
   const double steps = std::ceil(Log(std::max(scale, 1.0) / kSmallPart) / step);
   Sums means;
-  for (double r = scale * Exp(-(steps + 0.5) * step); r < kLargest; r *= kRatio) {
+  double r = scale * Exp(-(steps + 0.5) * step);
+  while (r < kLargest) {
     means.Add(problem, r, kDensityOfBothSigns * Exp(-0.5 * r * r) * r * step);
+    r *= kRatio;
   }
   return means;
 }

@@ -163,7 +163,7 @@ static Eigen::VectorXd PushWithoutSlip(const Problem& problem, const EnergyMetri
   }
   const Eigen::MatrixXd still = slip.fullPivLu().kernel();
   const Eigen::VectorXd parts = (normal * still).fullPivHouseholderQr().solve(Eigen::VectorXd::Ones(k));
-  const Eigen::VectorXd push = metric.ImpulseFor(still * parts);
+  Eigen::VectorXd push = metric.ImpulseFor(still * parts);
   const Eigen::VectorXd moved = problem.w * push;
   const Eigen::VectorXd rounding =
       2.0 * static_cast<double>(push.size()) * kEpsilon * (problem.w.cwiseAbs() * push.cwiseAbs());

@@ -154,7 +154,7 @@ ContactVector InRange(const ContactBlock& w, const ContactVector& x) {
 
 SingleImpact SolveSingleImpact(const Problem& problem, int i, const ContactVector& velocity) {
   const auto d = problem.d;
-  const ContactBlock w = problem.w.block(d * i, d * i, d, d);
+  const ContactBlock w = problem.w.block(problem.T(i), problem.T(i), d, d);
   const ContactVector x = InRange(w, velocity);
   const ContactLaw& law = problem.laws[At(i)];
   SingleImpact single = SolveOne(w, law, x);

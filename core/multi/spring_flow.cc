@@ -85,17 +85,18 @@ void SpringFlow::SetStick(const Problem& problem, const Vector& weights) {
   int count = 0;
   for (int i = 0; i < k_; ++i) {
     const bool sticks = IsClosed(i) && modes_[At(i)].slip == 0 && weights(i) > 0.0;
-    if (sticks && problem.w(2 * i, 2 * i) > 0.0) sticking[At(count++)] = i;
+    if (sticks && problem.w(problem.T(i), problem.T(i)) > 0.0) sticking[At(count++)] = i;
   }
   if (count == 0) return;
   Square matrix(count, count);
   Square driven(count, k_);  // Minus the slip accelerations by the forces, without the friction of these contacts.
   for (int a = 0; a < count; ++a) {
     const int i = sticking[At(a)];
-    for (int b = 0; b < count; ++b) matrix(a, b) = problem.w(2 * i, 2 * sticking[At(b)]);
+    for (int b = 0; b < count; ++b) matrix(a, b) = problem.w(problem.T(i), problem.T(sticking[At(b)]));
     for (int j = 0; j < k_; ++j) {
       double sum = 0.0;
-      if (IsClosed(j)) sum = problem.w(2 * i, 2 * j + 1) + problem.w(2 * i, 2 * j) * friction_(j, j);
+      if (IsClosed(j))
+        sum = problem.w(problem.T(i), problem.N(j)) + problem.w(problem.T(i), problem.T(j)) * friction_(j, j);
       driven(a, j) = -sum;
     }
   }
@@ -137,17 +138,17 @@ void SpringFlow::SetFriction(const Problem& problem, const SpringState& state, c
     if (weights(i) == 0.0) weights(i) = std::numeric_limits<double>::min();
   }
   SetStick(problem, weights);
-  by_force_ = Tall::Zero(2 * k_, k_);
-  size_ = Tall::Zero(2 * k_, k_);
+  by_force_ = Tall::Zero(problem.v.size(), k_);
+  size_ = Tall::Zero(problem.v.size(), k_);
   for (int row = 0; row < 2 * k_; ++row) {
     const bool sticks = row % 2 == 0 && weights(row / 2) > 0.0 && modes_[At(row / 2)].slip == 0;
     for (int j = 0; j < k_; ++j) {
       if (!IsClosed(j) || sticks) continue;
-      double sum = problem.w(row, 2 * j + 1);
+      double sum = problem.w(row, problem.N(j));
       double size = std::abs(sum);
       for (int l = 0; l < k_; ++l) {
         if (friction_(l, j) == 0.0) continue;
-        const double term = problem.w(row, 2 * l) * friction_(l, j);
+        const double term = problem.w(row, problem.T(l)) * friction_(l, j);
         sum += term;
         size += std::abs(term);
       }
@@ -158,7 +159,7 @@ void SpringFlow::SetFriction(const Problem& problem, const SpringState& state, c
   double square = 0.0;
   for (int i = 0; i < k_; ++i) {
     double row = 0.0;
-    for (int j = 0; j < k_; ++j) row += slides(i) * slides(j) * std::abs(problem.w(2 * i, 2 * j));
+    for (int j = 0; j < k_; ++j) row += slides(i) * slides(j) * std::abs(problem.w(problem.T(i), problem.T(j)));
     square = std::max(square, row);
   }
   growth_rate_ = 0.5 * std::sqrt(square);

@@ -454,12 +454,12 @@ TEST(FitTest, ManyRowsOfInformationAskForAStopAndTellTheSame) {
   const auto count = [&questions] { return ++questions < 0; };
   const Information information = InformationOf(problem, {0.5, 0.5}, ones, derivatives, count);
   EXPECT_GE(questions, 8);
-  constexpr double n = kCount;
-  const double linear = (n + 1.0) / 2.0, square = (n + 1.0) * (2.0 * n + 1.0) / (6.0 * n);
-  const double determinant = n * square - linear * linear;
+  constexpr double kAll = kCount;
+  const double linear = (kAll + 1.0) / 2.0, square = (kAll + 1.0) * (2.0 * kAll + 1.0) / (6.0 * kAll);
+  const double determinant = kAll * square - linear * linear;
   EXPECT_NEAR(information.covariance[0], 0.25 * square / determinant, 1e-13 * square / determinant);
   EXPECT_NEAR(information.covariance[1], -0.25 * linear / determinant, 1e-13 * linear / determinant);
-  EXPECT_NEAR(information.covariance[3], 0.25 * n / determinant, 1e-13 * n / determinant);
+  EXPECT_NEAR(information.covariance[3], 0.25 * kAll / determinant, 1e-13 * kAll / determinant);
   EXPECT_EQ(information.degrees_of_freedom, static_cast<int64_t>(kCount) - 2);
 }
 

@@ -354,7 +354,7 @@ MultiContactScene BallsAtAWall(const std::vector<double>& speeds) {
   MultiContactScene scene;
   FreeBodies bodies;
   for (size_t i = 0; i < speeds.size(); ++i) {
-    const double x = static_cast<double>(i);
+    const auto x = static_cast<double>(i);
     const auto number = static_cast<int32_t>(i + 1);
     bodies.bodies.push_back(
         {.mass_kg = 1.0, .inertia_com_kg_m2 = {1.0}, .position_m = {x, 0.0}, .linear_m_s = {speeds[i], 0.0}});

@@ -20,7 +20,7 @@ const auto kNever = [] { return false; };
 
 std::vector<Eigen::VectorXd> ContactVelocities(const Problem& problem) {
   std::vector<Eigen::VectorXd> gammas;
-  for (int j = 0; j < problem.v.size(); ++j) gammas.push_back(Eigen::VectorXd::Unit(problem.v.size(), j));
+  for (int j = 0; j < problem.v.size(); ++j) gammas.emplace_back(Eigen::VectorXd::Unit(problem.v.size(), j));
   return gammas;
 }
 
@@ -91,8 +91,8 @@ TEST(PossibleTest, NoPointOfTheSetIsOutside) {
     for (int sample = 0; sample < 2000; ++sample) {
       Eigen::VectorXd p(2 * problem.k);
       for (int i = 0; i < problem.k; ++i) {
-        p(2 * i + 1) = share(random) < 0.3 ? 0.0 : share(random);
-        p(2 * i) = (2.0 * share(random) - 1.0) * problem.laws[static_cast<size_t>(i)].mu * p(2 * i + 1);
+        p(problem.N(i)) = share(random) < 0.3 ? 0.0 : share(random);
+        p(problem.T(i)) = (2.0 * share(random) - 1.0) * problem.laws[static_cast<size_t>(i)].mu * p(problem.N(i));
       }
       const double square = p.dot(problem.w * p);
       const double most = square > 0.0 ? std::max(-2.0 * p.dot(problem.v) / square, 0.0) : 0.0;
@@ -145,7 +145,7 @@ TEST(PushApartTest, FeetOnOneFloorDoNotJamUnderAnyFriction) {
     const Eigen::VectorXd push = PushApart(problem, MetricOf(problem));
     ASSERT_EQ(push.size(), 4) << mu;
     const Eigen::VectorXd moved = problem.w * push;
-    for (int i = 0; i < 2; ++i) EXPECT_GT(moved(2 * i + 1), mu * std::abs(moved(2 * i))) << mu;
+    for (int i = 0; i < 2; ++i) EXPECT_GT(moved(problem.N(i)), mu * std::abs(moved(problem.T(i)))) << mu;
   }
 }
 

@@ -91,7 +91,7 @@ inline void AddClaims(const Problem& problem, bool has_springs, const std::strin
   const EnergyMetric metric = MetricOf(problem);
   const Eigen::VectorXd apart = PushApart(problem, metric);
   std::vector<Eigen::VectorXd> gammas;
-  for (int j = 0; j < problem.v.size(); ++j) gammas.push_back(Eigen::VectorXd::Unit(problem.v.size(), j));
+  for (int j = 0; j < problem.v.size(); ++j) gammas.emplace_back(Eigen::VectorXd::Unit(problem.v.size(), j));
   const std::vector<Range> ranges = FindPossible(problem, metric, apart, gammas, never);
   const auto add_inside = [&](const ExactOutcome& exact) {
     for (size_t j = 0; j < ranges.size(); ++j) {

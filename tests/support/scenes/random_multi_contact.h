@@ -27,9 +27,9 @@ inline Problem RandomMultiContact(std::mt19937_64& random, bool springs) {
     const int k = counts(random);
     const int kind = kinds(random);
     const int n = kind <= 1 ? 3 : kind == 2 ? 6 : kind == 3 ? 2 * k : k + 1;
-    Eigen::MatrixXd j = Eigen::MatrixXd::Zero(2 * k, n);
+    Eigen::MatrixXd j = Eigen::MatrixXd::Zero(Eigen::Index{2} * k, n);
     const double height = Dyadic(-1.0, 1.0, random);
-    for (int i = 0; i < k; ++i) {
+    for (Eigen::Index i = 0; i < k; ++i) {
       if (kind == 0) {
         j.row(2 * i) << 1.0, 0.0, height;
         j.row(2 * i + 1) << 0.0, 1.0, Dyadic(-1.0, 1.0, random);
