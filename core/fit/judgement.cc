@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/audit/audit_scene.h"
+#include "core/base/counted.h"
 #include "core/base/decimal.h"
 #include "core/fit/measured_velocity.h"
 #include "core/fit/search.h"
@@ -206,6 +207,13 @@ void SetNotes(const Information& information, FitResponse& response) {
   }
 }
 
+void NoteInadmissible(const std::vector<size_t>& rows, FitResponse& response) {
+  if (rows.empty()) return;
+  response.notes.push_back(absl::StrCat("The best fit itself is inadmissible in ", Counted(rows.size(), "row"),
+                                        ", first in row ", rows.front(),
+                                        ": there its outcome creates energy, or breaks another limit of mechanics."));
+}
+
 }  // namespace
 
 void Judge(const Problem& problem, const std::vector<double>& best, const Information& information, Model& model,
@@ -226,6 +234,7 @@ void Judge(const Problem& problem, const std::vector<double>& best, const Inform
   SetThresholds(problem, best, model, response);
   response.starts_differ = StartsDiffer(problem, response);
   SetNotes(information, response);
+  NoteInadmissible(model.Inadmissible(best), response);
 }
 
 }  // namespace ricochet::fit

@@ -52,7 +52,7 @@ bool Model::SolveAt(const std::vector<std::vector<double>>& points, Solved& solv
   BatchRows batch = {.inputs = {fields.begin(), fields.end()},
                      .outputs = {solved.columns.begin(), solved.columns.end()},
                      .regimes = absl::MakeSpan(solved.regimes),
-                     .statuses = {}};
+                     .statuses = absl::MakeSpan(solved.statuses)};
   absl::StatusOr<BatchSummary> summary = solve_rows_(batch, stopped_);
   is_stopped_ = !summary.ok();
   if (!is_stopped_) solved.bad_rows = std::move(summary->bad_rows);
@@ -77,6 +77,16 @@ bool Model::PredictAll(const std::vector<std::vector<double>>& points, std::vect
   predicted.clear();
   for (size_t point = 0; point < points.size(); ++point) predicted.push_back(NumbersOf(solved, point));
   return true;
+}
+
+std::vector<size_t> Model::Inadmissible(const std::vector<double>& unknowns) {
+  Solved solved = {.statuses = std::vector<RowStatus>(problem_.rows)};
+  std::vector<size_t> rows;
+  if (!SolveAt({unknowns}, solved)) return rows;
+  for (size_t row = 0; row < solved.statuses.size(); ++row) {
+    if (solved.statuses[row] == RowStatus::kInadmissible) rows.push_back(row);
+  }
+  return rows;
 }
 
 std::vector<double> Model::NumbersOf(const Solved& solved, size_t point) const {

@@ -36,6 +36,8 @@ class Model {
   // stopped.
   bool PredictAll(const std::vector<std::vector<double>>& points, std::vector<std::vector<double>>& predicted);
   const std::vector<Regime>& regimes() const { return here_.regimes; }
+  // The rows whose outcome breaks a limit: energy appears, or friction works along the slip.
+  std::vector<size_t> Inadmissible(const std::vector<double>& unknowns);
   // Returns the first measured number that has no prediction, and why.
   std::optional<BadRow> Bad(const std::vector<double>& predicted) const;
 
@@ -56,6 +58,7 @@ class Model {
     std::vector<std::vector<double>> columns;
     std::vector<Regime> regimes;
     std::vector<BadRow> bad_rows;
+    std::vector<RowStatus> statuses;  // Set for as many as the caller has made room for.
   };
 
   bool SolveAt(const std::vector<std::vector<double>>& points, Solved& solved);

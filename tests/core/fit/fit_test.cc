@@ -25,6 +25,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 bool Never() { return false; }
 
@@ -586,6 +587,7 @@ TEST(FitTest, VelocitiesOfLinksAndBodiesAreAuditedToo) {
                            {"rates_after_rad_s[1]", {0.7262307284606437, 0.7262307284606437}, {0.001}}}});
   EXPECT_TRUE(links.refused);
   EXPECT_THAT(links.rows[1].broken_limits, Contains(AuditLimit::kEnergy));
+  EXPECT_THAT(links.notes, Contains(HasSubstr("The best fit itself is inadmissible in 2 rows, first in row 0")));
   const FitRequest falls = FallingRod(NewtonCoefficient{0.5}, "restitution.newton", 0.0, {0.0, 0.0},
                                       {{"bodies_after[0].linear_m_s[0]", {0.0, 0.0}, {0.01}},
                                        {"bodies_after[0].linear_m_s[1]", {3.5, 1.0}, {0.01}},
@@ -593,6 +595,7 @@ TEST(FitTest, VelocitiesOfLinksAndBodiesAreAuditedToo) {
   const FitResponse body = Answer(falls);
   EXPECT_THAT(body.rows[0].broken_limits, Contains(AuditLimit::kEnergy));
   EXPECT_THAT(body.rows[1].broken_limits, IsEmpty());
+  EXPECT_THAT(body.notes, Not(Contains(HasSubstr("inadmissible"))));
 }
 
 // With the truth on both bounds, half of the data would fit better beyond each.
