@@ -12,6 +12,7 @@
 #include "core/audit/audit_parts.h"
 #include "core/audit/audit_scene.h"
 #include "core/contact/coefficients_at_speed.h"
+#include "core/contact/moved_contact.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
 #include "core/scene/numbers.h"
@@ -207,11 +208,9 @@ void AuditRows::SetFriction(size_t row, double& mu, double& mu_static) const {
 audit::Observation AuditRows::ObservationAt(size_t row) const {
   audit::Observation seen;
   if (!columns_.rates_after_rad_s.empty()) {
-    ObservedRates rates;
-    for (const std::vector<double>& column : columns_.rates_after_rad_s) {
-      rates.rates_rad_s.push_back(ValueAt(column, row));
-    }
-    const ContactVelocity velocity = audit::VelocityOf(rates, scene_);
+    Components rates;
+    for (const std::vector<double>& column : columns_.rates_after_rad_s) rates.push_back(ValueAt(column, row));
+    const ContactVelocity velocity = ContactVelocityAt(scene_, rates);
     seen.u1[0] = velocity.tangential_m_s[0];
     seen.v1 = velocity.normal_m_s;
   } else {

@@ -46,17 +46,6 @@ Scene WithoutRestitution(Scene scene) {
   return scene;
 }
 
-ContactVelocity VelocityOf(const ObservedRates& observed, Scene scene) {
-  if (auto* pendulum = std::get_if<Pendulum>(&scene.system); pendulum != nullptr) {
-    pendulum->omega_minus_rad_s = observed.rates_rad_s[0];
-  } else {
-    std::vector<Link>& links = std::get<Linkage>(scene.system).links;
-    for (size_t i = 0; i < links.size(); ++i) links[i].rate_rad_s = observed.rates_rad_s[i];
-  }
-  const auto reduction = std::get<PlanarReduction>(Reduce(scene));
-  return {.tangential_m_s = {reduction.u0[0]}, .normal_m_s = reduction.v0};
-}
-
 AnyProblem MakeProblem(const Scene& scene, const SceneContact& contact, bool from_own_velocity) {
   if (from_own_velocity && HasClosedForm(scene)) return ClosedFormProblem(scene);
   const AnyReduction& any = contact.reduction;

@@ -25,9 +25,6 @@ std::optional<size_t> RateCount(const System& system);
 // Removes the restitution and the impact law, which an audit does not use.
 Scene WithoutRestitution(Scene scene);
 
-// Returns the contact velocity of the scene with these rates in place of its own.
-ContactVelocity VelocityOf(const ObservedRates& observed, Scene scene);
-
 // Makes the problem whose path an observation is held against: a pendulum's closed form where the scene has one and its
 // own velocity is meant, else the scene's contact.
 AnyProblem MakeProblem(const Scene& scene, const SceneContact& contact, bool from_own_velocity);

@@ -9,6 +9,7 @@
 #include "core/answer/scene_outcome.h"
 #include "core/audit/audit.h"
 #include "core/audit/audit_parts.h"
+#include "core/contact/moved_contact.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
 #include "ricochet/error.h"
@@ -64,7 +65,7 @@ std::vector<Violation> ValidateRequest(const AuditRequest& request, std::optiona
 
 ContactVelocity VelocityOf(const Observed& observed, const Scene& scene) {
   const auto* velocity = std::get_if<ContactVelocity>(&observed);
-  return velocity != nullptr ? *velocity : audit::VelocityOf(std::get<ObservedRates>(observed), scene);
+  return velocity != nullptr ? *velocity : ContactVelocityAt(scene, std::get<ObservedRates>(observed).rates_rad_s);
 }
 
 }  // namespace

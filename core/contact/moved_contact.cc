@@ -1,0 +1,48 @@
+#include "core/contact/moved_contact.h"
+
+#include <cstddef>
+#include <variant>
+
+#include "core/base/invariant.h"
+#include "core/contact/reduction.h"
+
+namespace ricochet {
+namespace {
+
+// Sets the rates of a system.
+struct Mover {
+  absl::Span<const double> rates;
+
+  void operator()(Pendulum& pendulum) const { pendulum.omega_minus_rad_s = rates[0]; }
+  void operator()(Linkage& linkage) const {
+    for (size_t i = 0; i < linkage.links.size(); ++i) linkage.links[i].rate_rad_s = rates[i];
+  }
+  void operator()(Mechanism& mechanism) const { mechanism.rates.assign(rates.begin(), rates.end()); }
+  void operator()(PlanarBody& body) const {
+    body.velocity_t_m_s = rates[0];
+    body.velocity_n_m_s = rates[1];
+    body.rate_rad_s = rates[2];
+  }
+  void operator()(BodyPair& pair) const {
+    auto& bodies = std::get<PlanarPair>(pair.bodies);
+    Mover{rates.subspan(0, 3)}(bodies.body_1);
+    Mover{rates.subspan(3)}(bodies.body_2);
+  }
+  template <typename Other>
+  void operator()(Other& /*system*/) const {
+    CheckInvariant(false, "the system has rates that tell the velocity of its contact");
+  }
+};
+
+}  // namespace
+
+ContactVelocity ContactVelocityAt(Scene scene, absl::Span<const double> rates) {
+  std::visit(Mover{rates}, scene.system);
+  return std::visit(
+      [](const auto& reduction) {
+        return ContactVelocity{{reduction.u0.begin(), reduction.u0.end()}, reduction.v0};
+      },
+      Reduce(scene));
+}
+
+}  // namespace ricochet
