@@ -121,8 +121,8 @@ class Fitter {
 
   // True if the residuals of the best fit are too large for their errors.
   bool IsRefused() const {
-    const std::optional<double> p_value = PValueOf(chi2_, information_);
-    return p_value.has_value() ? *p_value < kFitRefusedBelow : chi2_ > kAsGood;
+    const std::optional<double> p_value = PValueOf(information_);
+    return p_value.has_value() ? *p_value < kFitRefusedBelow : information_.chi2 > kAsGood;
   }
 
   // Sees what the data tell at the best fit.
@@ -130,11 +130,6 @@ class Fitter {
     std::vector<double> predicted, derivatives;
     if (!model_.Predict(best_.at, predicted) || !model_.Differentiate(best_.at, all_free_, derivatives)) {
       derivatives.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
-    }
-    chi2_ = 0.0;
-    for (size_t i = 0; i < predicted.size(); ++i) {
-      const double residual = problem_.numbers[i].Residual(predicted[i]);
-      chi2_ += residual * residual;
     }
     predicted.resize(problem_.numbers.size(), 0.0);
     information_ = InformationOf(problem_, best_.at, predicted, derivatives, [this] { return model_.Stops(); });
@@ -201,8 +196,8 @@ class Fitter {
     // The data do not determine this number, so a bound that it reaches is not an end that the data gave.
     if (!estimate.seen && ray.kind != FitEndKind::kFound) end = {.kind = FitEndKind::kNotSeen, .value = {}};
     for (const RayPoint& point : ray.computed) {
-      if (std::isfinite(point.rise))
-        estimate.profile.push_back({estimate.value + point.distance * step, std::max(point.rise, 0.0)});
+      if (!std::isfinite(point.rise)) continue;
+      estimate.profile.push_back({estimate.value + point.distance * step, std::max(point.rise, 0.0)});
     }
   }
 
@@ -228,7 +223,6 @@ class Fitter {
   const std::vector<bool> all_free_;
   Minimum best_;
   Information information_;
-  double chi2_ = 0.0;
   FitResponse response_;
 };
 

@@ -54,8 +54,8 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   const auto count = static_cast<Eigen::Index>(problem.numbers.size());
   const auto size = static_cast<Eigen::Index>(problem.unknowns());
   Eigen::MatrixXd slopes(count, size);
-  double numbers = 0.0;  // The length of the numbers in sigmas.
-  double weights = 0.0;  // Their sum.
+  double numbers = 0.0;              // The length of the numbers in sigmas.
+  double chi2 = 0.0, weights = 0.0;  // Sums.
   std::vector<double> residuals;
   Eigen::VectorXd fall = Eigen::VectorXd::Zero(size);  // Half the fall of the objective by each unknown.
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -65,6 +65,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
     numbers = Hypot(numbers, std::max(std::fabs(predicted[number]), std::fabs(value)) / sigma);
     const double residual = residuals.emplace_back(problem.numbers[number].Residual(predicted[number]));
     const double weight = LossOf(problem, residual * residual).weight;
+    chi2 += residual * residual;
     weights += weight;
     for (Eigen::Index k = 0; k < size; ++k) {
       const double slope = derivatives[number * problem.unknowns() + static_cast<size_t>(k)];
@@ -73,7 +74,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
     }
   }
   Eigen::VectorXd lengths = slopes.colwise().norm().transpose();
-  Information information = {.is_seen = std::vector<bool>(problem.unknowns(), true)};
+  Information information = {.chi2 = chi2, .is_seen = std::vector<bool>(problem.unknowns(), true)};
   information.row_shares.resize(problem.unknowns());
   for (Eigen::Index k = 0; k < size; ++k) {
     const auto unknown = static_cast<size_t>(k);
@@ -124,9 +125,9 @@ double ChiSquaredBeyond(double value, double degrees_of_freedom) {
   return Eigen::numext::igammac(0.5 * degrees_of_freedom, 0.5 * value);
 }
 
-std::optional<double> PValueOf(double chi2, const Information& information) {
+std::optional<double> PValueOf(const Information& information) {
   if (information.degrees_of_freedom <= 0) return std::nullopt;
-  return ChiSquaredBeyond(chi2, static_cast<double>(information.degrees_of_freedom));
+  return ChiSquaredBeyond(information.chi2, static_cast<double>(information.degrees_of_freedom));
 }
 
 }  // namespace ricochet::fit

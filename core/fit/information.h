@@ -19,6 +19,7 @@
 namespace ricochet::fit {
 
 struct Information {
+  double chi2 = 0.0;                            // The sum of the squared residuals, whatever the loss.
   size_t rank = 0;                              // Combinations of unknowns that are seen.
   std::vector<bool> is_at_bound;                // The objective would fall beyond the bound where the unknown is.
   int64_t degrees_of_freedom = 0;               // Measured numbers less the rank, and one for each unknown at a bound.
@@ -36,8 +37,8 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
 // The probability that chi-squared with so many degrees of freedom, > 0, exceeds a value, exact to some 1e-12 of 1.
 double ChiSquaredBeyond(double value, double degrees_of_freedom);
 
-// The probability of so large a sum of squared residuals, or a larger one; none without a degree of freedom.
-std::optional<double> PValueOf(double chi2, const Information& information);
+// The probability of so large a chi2, or a larger one; none without a degree of freedom.
+std::optional<double> PValueOf(const Information& information);
 
 }  // namespace ricochet::fit
 

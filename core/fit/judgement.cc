@@ -43,7 +43,6 @@ void SetRows(const Problem& problem, const std::vector<double>& best, Model& mod
     const double residual = number.Residual(predicted[i]);
     response.rows[number.row].predicted[number.column] = predicted[i];
     response.rows[number.row].residuals[number.column] = residual;
-    response.chi2 += residual * residual;
     response.objective += LossOf(problem, residual * residual).loss;
     const double probability = ChiSquaredBeyond(residual * residual, 1.0);
     if (probability * static_cast<double>(predicted.size()) >= kOutlierBelow) continue;
@@ -226,7 +225,8 @@ void Judge(const Problem& problem, const std::vector<double>& best, const Inform
   SetRows(problem, best, model, response);
   response.interval_rise = kFitRiseOfInterval * information.rise;
   response.degrees_of_freedom = information.degrees_of_freedom;
-  response.p_value = PValueOf(response.chi2, information);
+  response.chi2 = information.chi2;
+  response.p_value = PValueOf(information);
   AuditRows(problem, best, model, response);
   response.refused =
       Chi2IsTooLarge(response) || std::any_of(response.rows.begin(), response.rows.end(),

@@ -121,8 +121,9 @@ Plot FitPlot(const FitRequest& request, const FitResponse& response) {
     plot.panels.push_back(DataPanel(request, response, x, column));
   }
   plot.panels.push_back(ResidualPanel(request, response, x));
-  for (const FitEstimate& unknown : response.unknowns)
+  for (const FitEstimate& unknown : response.unknowns) {
     plot.panels.push_back(ProfilePanel(unknown, response.interval_rise));
+  }
   if (!request.region.empty()) plot.panels.push_back(RegionPanel(request, response));
   return plot;
 }
