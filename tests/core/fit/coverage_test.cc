@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -14,14 +13,14 @@
 namespace ricochet::fit {
 namespace {
 
-struct Noise {
+struct Data {
   const char* name;
   FitLoss loss;
   std::optional<double> loss_scale;
   double outliers = 0.0;  // The probability of an error that is ten times as large.
 };
 
-class Coverage : public testing::TestWithParam<Noise> {};
+class Coverage : public testing::TestWithParam<Data> {};
 
 TEST_P(Coverage, OfTheTruthIsNinetyFivePercent) {
   constexpr int kSets = 1000;
@@ -32,21 +31,12 @@ TEST_P(Coverage, OfTheTruthIsNinetyFivePercent) {
   FitRequest exact = Noiseless(given);
   exact.loss = GetParam().loss;
   exact.loss_scale = GetParam().loss_scale;
-  std::mt19937_64 random(20260517);
-  std::normal_distribution<double> normal;
-  std::bernoulli_distribution is_outlier(GetParam().outliers);
+  Noise noise(20260517, GetParam().outliers);
   std::vector<int> covered(given.true_values.size(), 0);
   std::vector<int> near(covered);
   int refused = 0;
   for (int set = 0; set < kSets; ++set) {
-    FitRequest request = exact;
-    for (FitMeasured& measured : request.measured) {
-      for (double& value : measured.values) {
-        const double error = measured.sigma[0] * normal(random);
-        value += is_outlier(random) ? 10.0 * error : error;
-      }
-    }
-    const absl::StatusOr<FitResponse> response = Fit(request, [] { return false; });
+    const absl::StatusOr<FitResponse> response = Fit(noise.AddedTo(exact), [] { return false; });
     ASSERT_TRUE(response.ok()) << response.status();
     refused += static_cast<int>(response->refused);
     for (size_t k = 0; k < covered.size(); ++k) {
@@ -70,12 +60,12 @@ TEST_P(Coverage, OfTheTruthIsNinetyFivePercent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Losses, Coverage,
-                         testing::Values(Noise{"Squares", FitLoss::kSquares, {}}, Noise{"Huber", FitLoss::kHuber, {}},
-                                         Noise{"Cauchy", FitLoss::kCauchy, {}},
-                                         Noise{"NarrowHuber", FitLoss::kHuber, 0.5},
-                                         Noise{"NarrowCauchy", FitLoss::kCauchy, 1.0},
-                                         Noise{"HuberWithOutliers", FitLoss::kHuber, {}, 0.1},
-                                         Noise{"CauchyWithOutliers", FitLoss::kCauchy, {}, 0.1}),
+                         testing::Values(Data{"Squares", FitLoss::kSquares, {}}, Data{"Huber", FitLoss::kHuber, {}},
+                                         Data{"Cauchy", FitLoss::kCauchy, {}},
+                                         Data{"NarrowHuber", FitLoss::kHuber, 0.5},
+                                         Data{"NarrowCauchy", FitLoss::kCauchy, 1.0},
+                                         Data{"HuberWithOutliers", FitLoss::kHuber, {}, 0.1},
+                                         Data{"CauchyWithOutliers", FitLoss::kCauchy, {}, 0.1}),
                          [](const auto& of) { return std::string(of.param.name); });
 
 // Rows that slide lie on the friction cone, which errors make them leave as often as not.
@@ -85,15 +75,10 @@ TEST(CoverageTest, ManyGoodRowsDoNotRefuseThePhysics) {
   given.inputs.resize(1);
   given.inputs[0].values.assign(200, 3.0);
   const FitRequest exact = Noiseless(given);
-  std::mt19937_64 random(20260518);
-  std::normal_distribution<double> normal;
+  Noise noise(20260518);
   int broken = 0;
   for (int set = 0; set < kSets; ++set) {
-    FitRequest request = exact;
-    for (FitMeasured& measured : request.measured) {
-      for (double& value : measured.values) value += measured.sigma[0] * normal(random);
-    }
-    const absl::StatusOr<FitResponse> response = Fit(request, [] { return false; });
+    const absl::StatusOr<FitResponse> response = Fit(noise.AddedTo(exact), [] { return false; });
     ASSERT_TRUE(response.ok()) << response.status();
     broken += static_cast<int>(std::any_of(response->rows.begin(), response->rows.end(),
                                            [](const FitRow& r) { return !r.broken_limits.empty(); }));

@@ -3,6 +3,8 @@
 #ifndef RICOCHET_TESTS_CORE_FIT_FIT_CASES_H_
 #define RICOCHET_TESTS_CORE_FIT_FIT_CASES_H_
 
+#include <cstdint>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +32,27 @@ struct Case {
 inline absl::StatusOr<FitResponse> Fit(const FitRequest& request, absl::FunctionRef<bool()> stopped) {
   return RunFit(request, nullptr, stopped);
 }
+
+// Errors of measured numbers: normal ones with their sigma, of which some are ten times as large.
+class Noise {
+ public:
+  explicit Noise(uint64_t seed, double outliers = 0.0) : random_(seed), is_outlier_(outliers) {}
+
+  FitRequest AddedTo(FitRequest request) {
+    for (FitMeasured& measured : request.measured) {
+      for (double& value : measured.values) {
+        const double error = measured.sigma[0] * normal_(random_);
+        value += is_outlier_.p() > 0.0 && is_outlier_(random_) ? 10.0 * error : error;
+      }
+    }
+    return request;
+  }
+
+ private:
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  std::bernoulli_distribution is_outlier_;
+};
 
 // The request that a case makes without noise.
 inline FitRequest Noiseless(const Case& given) {

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -608,15 +607,10 @@ TEST(FitTest, TheProbabilityOfChiSquaredIsThatOfDataWhoseTruthLiesOnBounds) {
   given.unknowns[1].high = 1.0;
   for (FitInput& input : given.inputs) input.values.resize(2);
   const FitRequest exact = Noiseless(given);
-  std::mt19937_64 random(20261129);
-  std::normal_distribution<double> normal;
+  Noise noise(20261129);
   int rare = 0;
   for (int set = 0; set < kSets; ++set) {
-    FitRequest request = exact;
-    for (FitMeasured& measured : request.measured) {
-      for (double& value : measured.values) value += measured.sigma[0] * normal(random);
-    }
-    const FitResponse response = Answer(request);
+    const FitResponse response = Answer(noise.AddedTo(exact));
     ASSERT_TRUE(response.p_value.has_value());
     rare += *response.p_value < 0.05 ? 1 : 0;
   }
