@@ -42,7 +42,7 @@ class Neighbours {
 
   double SlipGap(double tau) const { return slip_gap_ + slip_growth_ * tau; }                             // N
   double SpeedGap(double tau) const { return speed_gap_ + speed_growth_ * tau + lever_ * SlipGap(tau); }  // E
-  // The same from the end of compression of each impact on, where it is `gap`.
+  // Returns E from the end of compression of each impact on, where it is `gap`.
   double SpeedGapAfter(double time, double gap) const { return (speed_growth_ + lever_ * slip_growth_) * time + gap; }
   double lever() const { return lever_; }
   double ImpulseGap(size_t i, double tau) const {

@@ -36,7 +36,7 @@ struct ContactErrors {
 template <size_t kTangential>
 using Impulses = std::array<double, kTangential + 1>;
 
-// What moves the contact point, of A and of B alike.
+// Freedom says what moves the contact point of A and of B.
 enum class Freedom {
   kMany,             // Two free coordinates or more.
   kTwoAlone,         // Two, where nothing else moves: v is a multiple of the part of u along one direction.

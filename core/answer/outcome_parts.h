@@ -51,7 +51,7 @@ WorkLedger MakeLedger(double normal_compression, double normal_restitution, doub
 // Sets the errors that are known.
 void SetErrors(const ImpactErrors& errors, Outcome& outcome);
 
-// What sizes and errors are relative to.
+// Approach holds the numbers that sizes and errors are relative to.
 struct Approach {
   std::array<double, 2> u0 = {};  // One component in a plane.
   double v0 = 0.0;

@@ -253,8 +253,9 @@ class Motion {
     return most;
   }
 
-  // What an error of one unit adds by moving the instant of a fall: until both paths have fallen, the force acts on in
-  // one of them, and the acceleration that says how far it falls changes. All in the metric of energy.
+  // Returns the error that an error of one unit adds by moving the instant of a fall: until both paths have fallen, the
+  // force acts on in one of them, and the acceleration that says how far it falls changes. Errors are in the metric of
+  // energy.
   double ErrorOfDelay(const std::vector<int>& falling) const {
     const int first = falling[0];
     const Series& normal = flow_->velocity(problem_.N(first));

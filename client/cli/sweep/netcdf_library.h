@@ -11,7 +11,7 @@
 namespace ricochet::cli {
 
 struct NetcdfLibrary {
-  // What dlsym has found, as a function of any type.
+  // Symbol holds what dlsym has found, as a function of any type.
   struct Symbol {
     void* address = nullptr;
 

@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
-// What a stretch of slip takes away from a lack df of the friction impulse.
+// Decay says how much a stretch of slip takes away from a lack df of the friction impulse.
 template <typename T>
 struct Decay {
   T a1{0}, a2{0};  // e', at any length
