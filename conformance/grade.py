@@ -3,8 +3,8 @@
 
 usage: grade.py ANSWERS [--tolerance X] [--law newton|poisson|energetic] [--family NAME]... [--case NAME]... [--json]
 
-ANSWERS is JSON or CSV (docs/conformance.md, answers.schema.json). The cases are those of impacts.json beside this file. It
-needs Python 3 and NumPy. Exit codes: 0 all cases are right, 2 wrong input, 42 some are not.
+ANSWERS is JSON or CSV (docs/conformance.md, answers.schema.json). The cases are those of impacts.json beside this file.
+It needs Python 3 and NumPy. Exit codes: 0 all cases are right, 2 wrong input, 42 some are not.
 """
 
 import argparse
@@ -66,14 +66,16 @@ def add_answer(where, name, law, velocity, cases, answers):
         refuse(f'{where}: the case and the law must be texts')
     if name not in cases:
         near = difflib.get_close_matches(name, cases, 1)
-        refuse(f'{where}.case = {name}: must be a case of impacts.json' + (f'; did you mean {near[0]}?' if near else ''))
+        hint = f'; did you mean {near[0]}?' if near else ''
+        refuse(f'{where}.case = {name}: must be a case of impacts.json{hint}')
     if law and law not in LAWS:
         refuse(f'{where}.law = {law}: must be {", ".join(LAWS)}')
     if name in answers:
         refuse(f'{where}.case = {name}: must not be answered twice')
     names = cases[name].coordinates
     if len(velocity) != len(names):
-        refuse(f'{where}.velocity_after of {name} has {len(velocity)} numbers: must have {len(names)}, {", ".join(names)}')
+        rule = f'must have {len(names)}, {", ".join(names)}'
+        refuse(f'{where}.velocity_after of {name} has {len(velocity)} numbers: {rule}')
     if not all(math.isfinite(x) for x in velocity):
         refuse(f'{where}.velocity_after of {name}: must have finite numbers; leave out a case without any')
     answers[name] = (law, np.array(velocity, float))
@@ -128,7 +130,8 @@ def read_json(text, path, cases):
 def number(text):
     """A number as ricochet reads it: a decimal, or a fraction of two."""
     parts = text.split('/')
-    if len(parts) > 2 or not all(re.fullmatch(r'[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)(e[+-]?[0-9]+)?', x, re.IGNORECASE) for x in parts):
+    decimal = re.compile(r'[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)(e[+-]?[0-9]+)?', re.IGNORECASE)
+    if len(parts) > 2 or not all(decimal.fullmatch(part) for part in parts):
         raise ValueError(f'{text} must be a number such as 0.1 or 1e-3, or a fraction such as 1/3')
     numbers = [float(x) for x in parts]
     for x, value in zip(parts, numbers):
@@ -140,25 +143,26 @@ def number(text):
 
 
 def read_csv(text, path, cases):
-    lines = [line.strip(BLANKS) for line in text.split('\n')]
-    lines = [line for line in lines if line and line[0] != '#']
-    for line in lines:
+    lines = {place: line.strip(BLANKS) for place, line in enumerate(text.split('\n'), 1)}
+    lines = {place: line for place, line in lines.items() if line and line[0] != '#'}
+    for line in lines.values():
         if line.count('"') % 2:
             refuse(f'{path}: {line} begins a cell in quotes that does not end')
     try:
-        rows = [[cell.strip(BLANKS) for cell in row] for row in csv.reader(lines, skipinitialspace=True, strict=True)]
+        reader = csv.reader(lines.values(), skipinitialspace=True, strict=True)
+        rows = [[cell.strip(BLANKS) for cell in row] for row in reader]
     except csv.Error as error:
         refuse(f'{path} is not CSV: {error}')
     header = rows[0] if rows else []
     if header != ['case', 'law', 'velocity_after']:
         refuse(f'{path} has the header {",".join(header)}: must have case,law,velocity_after')
     answers = {}
-    for place, row in enumerate(rows[1:], 1):
+    for place, row in zip(list(lines)[1:], rows[1:]):
         try:
             velocity = [number(cell) for cell in row[2:]]
         except ValueError as error:
-            refuse(f'row {place}: {error}')
-        add_answer(f'row {place}', row[0], row[1] if len(row) > 1 else '', velocity, cases, answers)
+            refuse(f'line {place}: {error}')
+        add_answer(f'line {place}', row[0], row[1] if len(row) > 1 else '', velocity, cases, answers)
     return '', answers
 
 
@@ -183,7 +187,8 @@ def read_answers(path, cases):
 
 def check(value, excess, allowance):
     # An excess that overflows breaks the limit.
-    return {'value': float(value), 'excess': float(excess), 'broken': bool(excess > allowance or not np.isfinite(excess))}
+    broken = bool(excess > allowance or not np.isfinite(excess))
+    return {'value': float(value), 'excess': float(excess), 'broken': broken}
 
 
 def least_squares(a, b):
@@ -234,7 +239,8 @@ def limits_of(case, after, tolerance):
     worst = int(np.argmax(-speeds - allowances))
     limits['approach'] = check(speeds[worst], -speeds[worst], allowances[worst])
     left = outside_cones(case, change)
-    allowance = ROUNDING * math.sqrt(case.before @ case.mass @ case.before) + tolerance * np.sqrt(np.diag(case.mass)).sum()
+    rounding = ROUNDING * math.sqrt(case.before @ case.mass @ case.before)
+    allowance = rounding + tolerance * np.sqrt(np.diag(case.mass)).sum()
     limits['cone'] = check(np.abs(left).max(), math.sqrt(left @ case.mass @ left), allowance)
     differences = [abs(after[i] - math.copysign(1, place) * after[abs(place) - 1])
                    for symmetry in case.symmetries for i, place in enumerate(symmetry)]
@@ -247,7 +253,8 @@ def grade_case(case, after, law, tolerance):
     errors = {name: float(np.abs(after - right).max()) for name, _, right in case.answers}
     judge = law if len(case.friction) == 1 else min(errors, key=errors.get)
     obeyed = [name for law_, also, _ in case.answers if errors[law_] <= tolerance for name in (law_, *also)]
-    other = not obeyed and any(np.abs(np.sort(after) - np.sort(right)).max() <= tolerance for _, _, right in case.answers)
+    gaps = [np.abs(np.sort(after) - np.sort(right)).max() for _, _, right in case.answers]
+    other = not obeyed and bool(min(gaps) <= tolerance)
     return {'law': judge, 'error': errors.get(judge, math.inf), 'right': errors.get(judge, math.inf) <= tolerance,
             'errors': errors, 'obeyed': obeyed, 'other_order': other, **limits_of(case, after, tolerance)}
 
@@ -317,7 +324,8 @@ def text_of(head, origin, graded):
     widths = [max(map(len, column)) for column in zip(*rows)]
     lines = [head, '']
     for row in rows:
-        lines.append('  ' + '   '.join([row[0].ljust(widths[0])] + [cell.rjust(w) for cell, w in zip(row[1:], widths[1:])]))
+        cells = [cell.rjust(width) for cell, width in zip(row[1:], widths[1:])]
+        lines.append('  ' + '   '.join([row[0].ljust(widths[0])] + cells))
     wrong = [f'  {case.name}: {complaint(case, grade)}' for case, grade in graded if complaint(case, grade)]
     lines += ['', origin]
     return '\n'.join(lines + (['', 'Not right, or beyond a limit:', *wrong] if wrong else []))
@@ -367,11 +375,13 @@ def main():
     if options.json:
         print(json.dumps({'simulator': simulator, 'version': whole['version'], 'fingerprint': whole['fingerprint'],
                           'tolerance': options.tolerance, 'law': general, 'right_cases': right,
-                          'cases': [{'case': case.name, 'family': case.family, 'answered': bool(grade), **finite(grade or {}),
-                                     'complaint': complaint(case, grade)} for case, grade in graded]}, indent=2))
+                          'cases': [{'case': case.name, 'family': case.family, 'answered': bool(grade),
+                                     **finite(grade or {}), 'complaint': complaint(case, grade)}
+                                    for case, grade in graded]}, indent=2))
     else:
-        origin = (f"The cases are version {whole['version']}, {whole['fingerprint'][:16]}. Errors are in m/s or rad/s. At several "
-                  'contacts any order will do, or springs.\nThe last four columns count the cases that break a limit.')
+        origin = (f"The cases are version {whole['version']}, {whole['fingerprint'][:16]}. Errors are in m/s or rad/s. "
+                  'At several contacts any order will do, or springs.\n'
+                  'The last four columns count the cases that break a limit.')
         print(text_of('%s: %d of %d cases are right to %.2g, by %s%s.' %
                       (simulator, right, len(graded), options.tolerance, laws_text(graded, general),
                        '' if stated else ', which most answers obey'), origin, graded))

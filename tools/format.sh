@@ -11,7 +11,7 @@ our_sources() {
 # Every line beyond 120 columns of what is written by hand: sources, comments, scripts, and the prose of pages. Tables,
 # pictures and the output of programs cannot be broken; the Python of tests is left out.
 long_lines() {
-  find core proto server client python tests tools packaging deploy dev .ci CMakeLists.txt -type f \
+  find core proto server client python conformance tests tools packaging deploy dev .ci CMakeLists.txt -type f \
     -not -path 'tests/*.py' \
     \( -name '*.h' -o -name '*.cc' -o -name '*.cpp' -o -name '*.proto' -o -name '*.py' -o -name '*.sh' \
     -o -name CMakeLists.txt -o -name '*.cmake' -o -path dev -o -path .ci/run \) -print0 |

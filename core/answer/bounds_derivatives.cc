@@ -73,7 +73,7 @@ std::vector<Violation> CheckBoundsDerivatives(const Scene& scene, const Derivati
   if (paths.find_thresholds) {
     violations.push_back(MakeViolation("derivatives.find_thresholds", "is set", "not be, for bounds"));
   }
-  std::vector<std::string> by = FieldPaths(scene);
+  std::vector<std::string> by = AllFieldPaths(scene);
   std::erase_if(by, [](const std::string& path) { return absl::StartsWith(path, "restitution."); });
   CheckPaths("by", paths.by, by, "a number of the scene other than restitution", violations);
   return violations;

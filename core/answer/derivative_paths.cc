@@ -89,7 +89,7 @@ std::vector<std::string> SystemVelocityPaths(const Scene& scene) {
 }
 
 DerivativePaths AllDerivativePaths(const Scene& scene) {
-  DerivativePaths paths = {.of = OutputPaths(scene), .by = FieldPaths(scene)};
+  DerivativePaths paths = {.of = OutputPaths(scene), .by = AllFieldPaths(scene)};
   std::erase_if(paths.by, [&scene](const std::string& path) { return IsOtherDefinition(scene, path); });
   return paths;
 }
@@ -100,7 +100,10 @@ std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& 
     violations.push_back(MakeViolation("excluded", "is set", "not be, with derivatives: they leave nothing out"));
   }
   const DerivativePaths known = AllDerivativePaths(scene);
-  CheckPaths("of", paths.of, known.of, "a velocity, an impulse, a work or a coefficient of the outcome", violations);
+  CheckPaths("of", paths.of, known.of,
+             "a coefficient, an impulse, a contact velocity, a velocity of the system, or a work other than that of a "
+             "spring",
+             violations);
   CheckPaths("by", paths.by, known.by, "a number of the scene, with the definition of restitution that it states",
              violations);
   return violations;

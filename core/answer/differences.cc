@@ -204,7 +204,9 @@ class Sides {
     constexpr double kVague = 0.1;
     constexpr double kNegligible = 1e-6;
     const double negligible = kNegligible * source_.scale(i) / line_.unit();
-    if (!(error <= std::max(kVague * std::fabs(rate), negligible))) {
+    // What no neighbour changes does not change, however vague the number itself is.
+    const bool stays = rate == 0.0 && std::isfinite(error);
+    if (!(error <= std::max(kVague * std::fabs(rate), negligible)) && !stays) {
       return {.why_none = "the number changes infinitely fast, or too fast to tell how fast"};
     }
     return {.rate = rate + 0.0, .error = error};
@@ -236,6 +238,11 @@ Threshold ThresholdBetween(const Course& x, const Course& y, const Course& here)
   if (differ([](const Course& course) { return course.Has(EventKind::kSlipStops); })) return Threshold::kImpactEnd;
   if (differ(is(Regime::kStickInCompression, Regime::kStickInRestitution))) return Threshold::kFrictionLimit;
   if (differ(is(Regime::kStickInCompression, Regime::kReversalInCompression))) return Threshold::kCompressionEnd;
+  // Slip that stops just where compression ends counts as stopped in restitution, but comes first.
+  if (differ(
+          [](const Course& course) { return course.IsBefore(EventKind::kSlipStops, EventKind::kCompressionEnds); })) {
+    return Threshold::kCompressionEnd;
+  }
   if (differ([](const Course& course) { return course.speeds_passed; })) return Threshold::kSpeedTable;
   return Threshold::kUnspecified;
 }

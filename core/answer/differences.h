@@ -37,6 +37,9 @@ struct Course {
   friend bool operator==(const Course&, const Course&) = default;
 
   bool Has(EventKind kind) const { return std::find(events.begin(), events.end(), kind) != events.end(); }
+  bool IsBefore(EventKind x, EventKind y) const {
+    return std::find(events.begin(), events.end(), x) < std::find(events.begin(), events.end(), y);
+  }
 };
 
 // The numbers that are asked for, at one scene.

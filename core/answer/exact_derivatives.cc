@@ -19,6 +19,12 @@ namespace {
 // The sides of a number that is 0 lie at plus and minus this value, whose square is still a normal double.
 constexpr double kBeside = 0x1p-300;
 constexpr size_t kOutputs = kPlanarOutputPaths.size();
+// Two rates that differ by less than this part of them are one. So are those that differ by less than kNegligible of
+// the largest rate of any number of the outcome, each over its size: what cancels in them leaves as much. Beside a
+// number that is 0 kSlight comes from what the derivative itself changes by between the sides.
+constexpr double kRounding = 0x1p-40;
+constexpr double kNegligible = 0x1p-60;
+constexpr double kSlight = 0x1p-200;
 
 constexpr size_t PlaceOf(PlanarOutput output) { return static_cast<size_t>(output); }
 
@@ -91,7 +97,9 @@ void ExactDerivatives::Compute(const Scene& scene) {
   here_.emplace(scene);
   const planar::Problem problem = ProblemOf(scene, *here_);
   speed_here_ = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
-  values_here_ = planar::NumbersOf(planar::Solve(problem), 0.0);
+  const planar::Impact impact = planar::Solve(problem);
+  has_end_ = HasEnd(impact.regime);
+  values_here_ = planar::NumbersOf(impact, 0.0);
   const ContactTangents tangents_here(scene, *here_);
   for (Number& number : numbers_) {
     if (number.is_stated) {
@@ -179,7 +187,11 @@ double ExactDerivatives::SizeOf(size_t place) const {
   return VelocityScaleOf(std::get<PlanarReduction>(here_->reduction), place - kOutputs, impulse);
 }
 
+// True if the side lies beside a number that is 0.
+bool ExactDerivatives::IsMoved(const Side& side) { return std::fabs(side.step) == kBeside; }
+
 OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
+  if (!has_end_) return {.why_none = "no end of the impact is known"};
   if (!side.exists) return {.why_none = "the scene would break a rule"};
   if (LosesRank(side)) {
     return {.why_none = "the rank of W, or whether the velocity lies in its range, changes at once"};
@@ -191,7 +203,9 @@ OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
   }
   const double here = ValueAt(place, std::get<PlanarReduction>(here_->reduction), values_here_);
   const double size = std::max({std::fabs(here), std::fabs(value), SizeOf(place)});
-  if (std::fabs(value - here) > 0x1p-30 * size) return {.why_none = "the number jumps"};
+  // What depends on a number that is moved beside 0 moves along.
+  const double moved = IsMoved(side) ? 2.0 * std::fabs(rate * side.step) : 0.0;
+  if (std::fabs(value - here) > std::max(0x1p-30 * size, moved)) return {.why_none = "the number jumps"};
   return {.rate = rate + 0.0};
 }
 
@@ -211,15 +225,50 @@ Threshold ExactDerivatives::ThresholdOf(const Number& number) const {
   return below.contact_tangent.is_at_speed_of_table ? Threshold::kSpeedTable : Threshold::kUnspecified;
 }
 
+double ExactDerivatives::LargestRate(const Number& number) const {
+  double largest = 0.0;
+  for (size_t place = 0; place < kOutputs + std::get<PlanarReduction>(here_->reduction).before.size(); ++place) {
+    const double rate = LargestRate(number, place) / SizeOf(place);
+    if (std::isfinite(rate)) largest = std::max(largest, rate);
+  }
+  return largest;
+}
+
+double ExactDerivatives::LargestRate(const Number& number, size_t place) const {
+  double largest = 0.0;
+  for (const Side* const side : {&number.below, &number.above}) {
+    if (side->exists) largest = std::max(largest, std::fabs(RateOf(*side, place)));
+  }
+  return largest;
+}
+
 Derivative ExactDerivatives::At(size_t of, size_t by) const {
   const Number& number = numbers_[by];
-  const OneSided below = LimitOf(number.below, places_[of]);
-  const OneSided above = LimitOf(number.above, places_[of]);
-  // True if the rates differ by no more than their rounding.
-  const bool agree =
-      below.rate.has_value() && above.rate.has_value() &&
-      std::fabs(*below.rate - *above.rate) <= 0x1p-40 * (std::fabs(*below.rate) + std::fabs(*above.rate));
+  OneSided below = LimitOf(number.below, places_[of]);
+  OneSided above = LimitOf(number.above, places_[of]);
+  const bool both = below.rate.has_value() && above.rate.has_value();
+  bool agree =
+      both && std::fabs(*below.rate - *above.rate) <= kRounding * (std::fabs(*below.rate) + std::fabs(*above.rate));
+  if (both && !agree) {
+    const double slight = IsMoved(number.above) ? kSlight : 0.0;
+    const double least = SizeOf(places_[of]) * std::max(slight, kNegligible * LargestRate(number));
+    agree = std::fabs(*below.rate - *above.rate) <= least;
+    if (agree) below.rate = above.rate = 0.5 * (*below.rate + *above.rate);
+  }
   return Join(below, above, agree, agree ? Threshold::kUnspecified : ThresholdOf(number));
+}
+
+std::optional<double> ExactDerivatives::ErrorOf(size_t of, size_t by) const {
+  constexpr double kOfRounding = 1e-14;
+  constexpr double kLeast = 1e-10;
+  const auto& [tt, tn, nn] = std::get<PlanarReduction>(here_->reduction).w;
+  const PlanarDelassus w = {tt, tn, nn};
+  const double amplification =
+      (1.0 + here_->coefficients.kinetic_friction * std::fabs(tn) / nn) / w.RelativeDeterminant();
+  const double lost = kOfRounding * amplification * amplification;
+  if (w.Rank() == 1 || !(lost > kLeast)) return std::nullopt;
+  const Number& number = numbers_[by];
+  return lost * std::max(LargestRate(number, places_[of]), SizeOf(places_[of]) * LargestRate(number));
 }
 
 std::vector<Derivative> ExactDerivativesOf(const Scene& scene, const DerivativePaths& paths) {
@@ -229,6 +278,7 @@ std::vector<Derivative> ExactDerivativesOf(const Scene& scene, const DerivativeP
   for (size_t of = 0; of < paths.of.size(); ++of) {
     for (size_t by = 0; by < paths.by.size(); ++by) {
       derivatives.push_back(exact.At(of, by));
+      if (derivatives.back().kind != DerivativeKind::kNone) derivatives.back().error = exact.ErrorOf(of, by);
       derivatives.back().of = paths.of[of];
       derivatives.back().by = paths.by[by];
     }

@@ -34,8 +34,10 @@ class ExactDerivatives {
   // Computes the derivatives of a valid scene that differs from the form in its numbers only.
   void Compute(const Scene& scene);
 
-  // The derivative of paths.of[of] by paths.by[by] at the last scene, without their names.
+  // The derivative of paths.of[of] by paths.by[by] at the last scene, without their names and its error.
   Derivative At(size_t of, size_t by) const;
+  // Its error if W is so nearly singular that the rounding of W takes more of its digits than usual.
+  std::optional<double> ErrorOf(size_t of, size_t by) const;
 
  private:
   struct Side {
@@ -69,6 +71,10 @@ class ExactDerivatives {
   bool LosesRank(const Side& side) const;
   double RateOf(const Side& side, size_t place) const;
   double SizeOf(size_t place) const;
+  // The larger rate of both sides, and the largest of any number of the outcome, over its size.
+  double LargestRate(const Number& number, size_t place) const;
+  double LargestRate(const Number& number) const;
+  static bool IsMoved(const Side& side);
   OneSided LimitOf(const Side& side, size_t place) const;
   Threshold ThresholdOf(const Number& number) const;
 
@@ -79,6 +85,7 @@ class ExactDerivatives {
   std::optional<SceneContact> here_;
   std::array<double, kPlanarOutputCount> values_here_ = {};
   double speed_here_ = 0.0;
+  bool has_end_ = true;
   std::vector<planar::Along> impacts_;
 };
 

@@ -1,4 +1,6 @@
-// The spatial model at tolerances from 1e-2 to 1e-12.
+// The spatial model at tolerances from 1e-2 to 1e-12, or at the last alone where the path takes no steps.
+
+#include <span>
 
 #include "absl/strings/str_cat.h"
 #include "core/cost/methods_by_model.h"
@@ -25,8 +27,11 @@ Kernel SpatialKernel(const Problem& problem) {
 }  // namespace
 
 void AddSpatial(const Problem& problem, const ReferencePointer& exact, Methods& methods) {
-  for (const double tolerance : kTolerances) {
-    Problem at = problem;
+  Problem at = problem;
+  at.tolerance = kTolerances[0];
+  std::span<const double> tolerances = kTolerances;
+  if (spatial::Solve(at).steps == 0) tolerances = tolerances.last(1);
+  for (const double tolerance : tolerances) {
     at.tolerance = tolerance;
     methods.push_back({.name = absl::StrCat("space ", tolerance),
                        .method = {.model = Model::kSpatial, .arithmetic = Arithmetic::kPlain, .tolerance = tolerance},

@@ -153,8 +153,19 @@ std::string Limits(const FitRow& row) {
   return text;
 }
 
+// A sign that is wrong in one row of a table shows in that nothing strikes there.
+void NoteSeparating(const std::vector<FitRow>& rows, std::vector<std::string>& notes) {
+  const auto separates = [](const FitRow& row) { return row.regime == Regime::kSeparating; };
+  const auto first = std::find_if(rows.begin(), rows.end(), separates);
+  if (first == rows.end()) return;
+  const auto count = static_cast<size_t>(std::count_if(first, rows.end(), separates));
+  notes.push_back(absl::StrCat("Nothing strikes in ", Counted(count, "row"), ", first in row ", first - rows.begin(),
+                               ": the normal velocity before is not negative there."));
+}
+
 void SetNotes(const Information& information, FitResponse& response) {
   std::vector<std::string>& notes = response.notes;
+  NoteSeparating(response.rows, notes);
   if (!response.starts.front().converged) {
     notes.emplace_back("The search from the first start did not converge; more iterations or another start may help.");
   }

@@ -381,8 +381,14 @@ class Answerer {
     return most > 0.0;
   }
 
-  // True if no contact affects another, none approaches, or all possible outcomes are one.
-  bool IsSingle() const {
+  // True if two contacts give all energy back: as in a slot, an impact may then go on for ever.
+  bool MayHaveNoEnd() const {
+    const std::vector<ContactLaw>& laws = sorted_.problem.laws;
+    return std::count_if(laws.begin(), laws.end(), [](const ContactLaw& law) { return law.e == 1.0; }) > 1;
+  }
+
+  // True if no contact affects another, none approaches, or all possible outcomes of an impact that ends are one.
+  bool IsSingle(bool ends) const {
     const Problem& problem = sorted_.problem;
     bool is_alone = true, approaches = false;
     for (int i = 0; i < problem.k; ++i) {
@@ -390,6 +396,7 @@ class Answerer {
       for (int j = 0; j < i; ++j) is_alone = is_alone && !problem.AreCoupled(i, j);
     }
     if (is_alone || !approaches) return true;
+    if (!ends) return false;
     for (size_t i = 0; i < answer_.possible.size(); ++i) {
       const double scale = ScaleOf(outputs_[i].mobility);
       if (answer_.possible[i].upper - answer_.possible[i].lower > kNoWidth * scale) return false;
@@ -399,16 +406,18 @@ class Answerer {
 
   void Judge(bool has_orders, bool has_springs) {
     std::vector<const AttainedOutcome*> orders, springs;
-    for (const AttainedOutcome& outcome : answer_.orders) {
-      if (IsAttained(outcome)) orders.push_back(&outcome);
-    }
-    if (answer_.springs.has_value() && IsAttained(*answer_.springs)) springs.push_back(&*answer_.springs);
-    for (const StiffnessSample& sample : answer_.stiffness_samples) {
-      if (IsAttained(sample.outcome)) springs.push_back(&sample.outcome);
-    }
+    bool all_end = true;
+    const auto add = [&](const AttainedOutcome& outcome, std::vector<const AttainedOutcome*>& attained) {
+      if (IsAttained(outcome)) attained.push_back(&outcome);
+      all_end = all_end && IsAttained(outcome);
+    };
+    for (const AttainedOutcome& outcome : answer_.orders) add(outcome, orders);
+    if (answer_.springs.has_value()) add(*answer_.springs, springs);
+    for (const StiffnessSample& sample : answer_.stiffness_samples) add(sample.outcome, springs);
+    const bool ends = !MayHaveNoEnd() || (all_end && orders.size() + springs.size() > 0);
     const auto is_vague = [this](const AttainedOutcome* outcome) { return IsVague(outcome); };
     const bool are_known = std::none_of(orders.begin(), orders.end(), is_vague);
-    if (IsSingle()) {
+    if (IsSingle(ends)) {
       answer_.verdict = MultiContactVerdict::kSingle;
     } else if (Compare(orders, orders)) {
       answer_.verdict = MultiContactVerdict::kOrderMatters;

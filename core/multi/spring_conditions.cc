@@ -24,7 +24,7 @@ std::vector<Condition> ConditionsOf(const Problem& problem, const Modes& modes, 
     if (sign < 0.0) {
       for (double& c : condition.series.c) c = -c;
     }
-    const bool is_event = event.has_value() && event->contact == contact && event->keeps == keeps;
+    const bool is_event = event.has_value() && event->contacts[At(contact)] && event->keeps == keeps;
     const bool has_tie = event.has_value() && event->has_tie;
     const bool is_cone = keeps == Keeps::kConeAbove || keeps == Keeps::kConeBelow;
     if (is_event || (has_tie && is_cone)) TakeForZero(0, condition.series);

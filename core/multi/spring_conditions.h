@@ -6,6 +6,7 @@
 #ifndef RICOCHET_CORE_MULTI_SPRING_CONDITIONS_H_
 #define RICOCHET_CORE_MULTI_SPRING_CONDITIONS_H_
 
+#include <bitset>
 #include <optional>
 #include <vector>
 
@@ -27,9 +28,9 @@ struct Condition {
   int lead = 0;
 };
 
-// The condition that is 0 by an event at which the state is.
+// The condition that is 0 by an event at which the state is, and the contacts that it is 0 for.
 struct Event {
-  int contact = 0;
+  std::bitset<kMostContacts> contacts;
   Keeps keeps = Keeps::kGap;
   bool has_tie = false;  // No time has passed since the event before.
 };

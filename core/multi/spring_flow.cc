@@ -1,6 +1,5 @@
 #include "core/multi/spring_flow.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -64,6 +63,12 @@ double FirstRoot(const Series& series, int lead) {
   return s;
 }
 
+bool IsRegular(const Eigen::LLT<Square>& cholesky, const Square& w) {
+  if (cholesky.info() != Eigen::Success) return false;
+  const auto diagonal = cholesky.matrixLLT().diagonal();
+  return diagonal.cwiseAbs2().minCoeff() > kRankTolerance * w.diagonal().maxCoeff();
+}
+
 SpringFlow::SpringFlow(const Problem& problem, const Modes& modes, const SpringState& state, const Vector& v,
                        const Vector& v_noise)
     : k_(problem.k), modes_(modes) {
@@ -102,12 +107,7 @@ void SpringFlow::SetStick(const Problem& problem, const Vector& weights) {
   }
   Square solution;
   const Eigen::LLT<Square> cholesky(matrix);
-  const auto is_regular = [&] {
-    if (cholesky.info() != Eigen::Success) return false;
-    const auto diagonal = cholesky.matrixLLT().diagonal();
-    return diagonal.cwiseAbs2().minCoeff() > kRankTolerance * matrix.diagonal().maxCoeff();
-  };
-  if (is_regular()) {
+  if (IsRegular(cholesky, matrix)) {
     solution = cholesky.solve(driven);
   } else {
     split_is_free_ = true;

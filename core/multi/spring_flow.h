@@ -11,6 +11,7 @@
 #ifndef RICOCHET_CORE_MULTI_SPRING_FLOW_H_
 #define RICOCHET_CORE_MULTI_SPRING_FLOW_H_
 
+#include <Eigen/Cholesky>
 #include <array>
 #include <cstdint>
 
@@ -51,6 +52,11 @@ struct Series {
 // not. It is found from below, and proved to be the first.
 double FirstRoot(const Series& series, int lead);
 
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign, kMostContacts, kMostContacts>;
+
+// False if contacts with this W of their tangential directions hold each other, so that friction divides in many ways.
+bool IsRegular(const Eigen::LLT<Square>& cholesky, const Square& w);
+
 class SpringFlow {
  public:
   // `v` = v- + W p, and `v_noise` bounds its rounding. Where no contact is closed, a step reaches beyond the first
@@ -84,7 +90,6 @@ class SpringFlow {
   void SetStep(const Problem& problem, const SpringState& state, const Vector& v);
   void Expand(const SpringState& state, const Vector& v, const Vector& v_noise);
 
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign, kMostContacts, kMostContacts>;
   using Tall =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign, 2 * kMostContacts, kMostContacts>;
 

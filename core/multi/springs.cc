@@ -1,6 +1,8 @@
 #include "core/multi/springs.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -130,7 +132,7 @@ class Motion {
   // Finds the modes in which every condition has the right sign, and the flow in them.
   void FindModes() {
     for (int i = 0; i < k_; ++i) {
-      if (Slides(i)) modes_[At(i)].slip = SlipSign(i);
+      if (Slides(i) && !StopsWithOthers(i)) modes_[At(i)].slip = SlipSign(i);
     }
     const int most_changes = 8 * k_ + 8;
     for (int change = 0; change < most_changes; ++change) {
@@ -346,7 +348,10 @@ class Motion {
     if (first != nullptr) {
       ++result_.events;
       // Contacts that hold each other divide friction anew after each event, until all reach their cones at once.
-      event_ = Event{.contact = first->contact, .keeps = first->keeps, .has_tie = s <= kZeroOfEvent};
+      event_ = Event{.contacts = ContactsOf(*first, s), .keeps = first->keeps, .has_tie = s <= kZeroOfEvent};
+      for (int i = 0; i < k_; ++i) {
+        if (StopsWithOthers(i)) modes_[At(i)].slip = 0;
+      }
       AddEventError(*first, s);
       if (first->keeps == Keeps::kPressed) Open(first->contact);
       if (first->keeps == Keeps::kGap) {
@@ -359,6 +364,24 @@ class Motion {
     const Modes before = modes_;
     Settle();
     AddReloadError(before);
+  }
+
+  // The contacts of the event at s: the one of `first`, and those whose slip stops with it.
+  std::bitset<kMostContacts> ContactsOf(const Condition& first, double s) const {
+    std::bitset<kMostContacts> contacts;
+    contacts.set(At(first.contact));
+    if (first.keeps != Keeps::kSlip) return contacts;
+    for (const Condition& condition : conditions_) {
+      if (condition.keeps != Keeps::kSlip || condition.lead > kSeriesOrder) continue;
+      if (FirstRoot(condition.series, condition.lead) <= s * (1.0 + 0x1p-36)) contacts.set(At(condition.contact));
+    }
+    return contacts;
+  }
+
+  // True if the contact has just stopped to slip at the same instant as another. These may hold each other, and are
+  // tried as stuck together: if one were left to slip, the others would only hold against its friction.
+  bool StopsWithOthers(int i) const {
+    return event_.has_value() && event_->contacts.count() > 1 && event_->contacts[At(i)];
   }
 
   void Open(int i) {
@@ -450,7 +473,21 @@ class Motion {
           (largest * roots_(problem_.T(i)) * result_.error + std::abs(v_(problem_.T(i))) * force_error);
     }
     AddError(added);
-    if (flow_->split_is_free()) result_.split_is_unique = false;
+    if (flow_->split_is_free() || HoldsMoreThanOnce()) result_.split_is_unique = false;
+  }
+
+  // True if contacts that do not slip hold each other with one of them on its cone, so that others may take from it.
+  bool HoldsMoreThanOnce() const {
+    std::vector<int> held;
+    bool is_on_cone = false;
+    for (int i = 0; i < k_; ++i) {
+      if (!IsClosed(i) || !HasFriction(i) || flow_->velocity(problem_.T(i)).Lead() <= kSeriesOrder) continue;
+      held.push_back(problem_.T(i));
+      is_on_cone = is_on_cone || modes_[At(i)].slip != 0;
+    }
+    if (!is_on_cone) return false;
+    const Square w = problem_.w(held, held);
+    return !IsRegular(Eigen::LLT<Square>(w), w);
   }
 
   static double IntegralOfProduct(const Series& x, const Series& y, double s) {

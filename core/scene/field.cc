@@ -73,7 +73,7 @@ bool IsDrivenFromAbove(const System& system, const NumberPath& path) {
 
 absl::Status UnknownField(const std::string& path, const Scene& scene) {
   return absl::InvalidArgumentError(
-      absl::StrCat(Found(path), ": must be a field of the scene; `ricochet sweep --axis '?'` lists them",
+      absl::StrCat(Found(path), ": must be a field that the scene states; `ricochet sweep --axis '?'` lists them",
                    DidYouMean(path, FieldPaths(scene))));
 }
 
@@ -150,14 +150,14 @@ std::string Found(const std::string& text) {
                       text.size() > kMostExcerpt ? absl::StrCat(" (", text.size(), " bytes)") : "");
 }
 
-std::vector<std::string> FieldPaths(const Scene& scene) {
+static std::vector<std::string> Paths(const Scene& scene, bool has_mirrored) {
   Scene all = scene;
   MakePresent("friction.static_coefficient", all);
   MakeSurface(all);
   all.restitution = std::monostate();
   std::vector<std::string> paths;
   VisitNumbers(all, [&](const NumberPath& path, double& /*number*/, NumberRule /*rule*/) {
-    if (!IsDrivenFromAbove(scene.system, path)) paths.push_back(path.Text());
+    if (has_mirrored || !IsDrivenFromAbove(scene.system, path)) paths.push_back(path.Text());
   });
   if (std::holds_alternative<Pendulum>(scene.system)) paths.emplace_back(kPhi);
   if (!std::holds_alternative<std::monostate>(scene.impact_law)) return paths;
@@ -166,5 +166,9 @@ std::vector<std::string> FieldPaths(const Scene& scene) {
   }
   return paths;
 }
+
+std::vector<std::string> FieldPaths(const Scene& scene) { return Paths(scene, false); }
+
+std::vector<std::string> AllFieldPaths(const Scene& scene) { return Paths(scene, true); }
 
 }  // namespace ricochet

@@ -86,6 +86,9 @@ std::string Found(const std::string& text);
 // one.
 std::vector<std::string> FieldPaths(const Scene& scene);
 
+// These paths, and both of two such entries.
+std::vector<std::string> AllFieldPaths(const Scene& scene);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CORE_SCENE_FIELD_H_

@@ -161,11 +161,11 @@ py::object Filler::Ask(const char* name, Arguments&&... arguments) {
 
 void Filler::Fill(py::handle values, Message& message, const Place* place) {
   py::dict dictionary;
+  const google::protobuf::Descriptor& type = *message.GetDescriptor();
   if (!ReadDictionary(values, dictionary)) {
-    Ask("dictionary_expected", values, place == nullptr ? "scene" : place->Text());
+    Ask("dictionary_expected", values, place == nullptr ? "scene" : place->Text(), FieldNames(type));
     return;
   }
-  const google::protobuf::Descriptor& type = *message.GetDescriptor();
   has_several_contacts_ = has_several_contacts_ || &type == v1::MultiContactScene::descriptor();
   for (const bool is_matrix : {false, true}) {  // The shape of J follows from the rates.
     for (const auto& [key, value] : dictionary) {

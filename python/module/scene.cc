@@ -71,7 +71,7 @@ void AddScene(py::module_& module) {
   py::class_<PreparedScene>(module, "Scene", kSceneHelp)
       .def(py::init(read), py::arg("scene"))
       .def("to_dict", &ToDict, "Returns the scene as a dictionary.")
-      .def("_fields", [](const PreparedScene& self) { return Paths{FieldPaths(self.scene)}; })
+      .def("_fields", [](const PreparedScene& self) { return Paths{AllFieldPaths(self.scene)}; })
       .def("_columns", [](const PreparedScene& self) { return Paths{ColumnPlaces(self.scene)}; })
       .def("__repr__", [](const PreparedScene& self) { return py::str("Scene({!r})").format(ToDict(self)); })
       .def(

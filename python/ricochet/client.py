@@ -575,7 +575,7 @@ class Client:
             arguments["states"] = [{"velocity": state} for state in rows]
         if outputs is not None:
             if not isinstance(outputs, Mapping):
-                values.dictionary_expected(outputs, "outputs")
+                values.dictionary_expected(outputs, "outputs", ["the coefficients of each name"])
             arguments["outputs"] = [{"name": name, "coefficients": outputs[name]} for name in outputs]
         if stiffness_range is not None:
             if not values.is_list(stiffness_range) or len(stiffness_range) != 3:
@@ -741,7 +741,7 @@ def _index_of(argument: str, given: Any, columns: Mapping[str, Any], rows: int) 
 def _full_paths(derivatives: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, Any]:
     """Returns what is asked of derivatives, with the full names of those numbers whose names are known."""
     if not isinstance(derivatives, Mapping):
-        values.dictionary_expected(derivatives, "derivatives")
+        values.dictionary_expected(derivatives, "derivatives", ["by", "find_thresholds", "of"])
     return {key: names.full_names(values.names(value, key), known[key], key) if key in known else value
             for key, value in derivatives.items()}
 

@@ -6,8 +6,6 @@ A short name is the end of a path, with or without its unit: "newton" for "coeff
 
 from __future__ import annotations
 
-import math
-import re
 from typing import Any, Collection, Iterable
 
 from ricochet.errors import InvalidRequest, Violation
@@ -83,13 +81,6 @@ def _full_name(name: str, known: Collection[str], what: str, violations: list[Vi
 def _nearest(name: str, ends: Collection[str]) -> str | None:
     import difflib  # Only errors need it.
 
-    entry = re.fullmatch(r"mass_matrix\[(\d+)\]", name)
-    size = math.isqrt(2 * sum(end.startswith("mass_matrix[") for end in ends))
-    if entry and size:  # One below the diagonal has the name of the one across it.
-        row, column = divmod(int(entry[1]), size)
-        across = f"mass_matrix[{column * size + row}]"
-        if across in ends:
-            return across
     return next(iter(difflib.get_close_matches(name, ends, n=1)), None)
 
 

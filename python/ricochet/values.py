@@ -62,8 +62,8 @@ def unknown_name(path: str, name: str, known: list[str]) -> NoReturn:
     refuse(path, f"= {name!r} is unknown{suggestion(name.lower(), known)}")
 
 
-def dictionary_expected(values: Any, path: str) -> NoReturn:
-    refuse(path, f"= {shown(values)}: must be a dictionary")
+def dictionary_expected(values: Any, path: str, known: list[str]) -> NoReturn:
+    refuse(path, f"= {shown(values)}: must be a dictionary, with {', '.join(known)}")
 
 
 def plain(value: Any) -> Any:

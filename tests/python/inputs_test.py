@@ -158,7 +158,8 @@ class Numbers(Case):
 
     def test_what_is_asked_of_derivatives_is_a_dictionary(self):
         for call in (ricochet.solve, ricochet.bounds):
-            self.refused(lambda: call(PENDULUM, derivatives=["newton"]), "derivatives", "must be a dictionary")
+            self.refused(lambda: call(PENDULUM, derivatives=["newton"]), "derivatives",
+                         "must be a dictionary, with by, find_thresholds, of")
 
 
 class Matrices(Case):
@@ -301,8 +302,8 @@ class ShortNames(Case):
         self.refused(lambda: ricochet.sweep(PENDULUM, {"mu": 0, MU: 1}, "newton"), "axes", "a second time")
         self.refused(lambda: ricochet.sweep(PENDULUM, {"mu": 0}, "d(newtn)/d(mu)"), "columns", f"mean {NEWTON}?")
         arm = {"mechanism": {"mass_matrix": np.eye(3), "jacobian": np.eye(3), "rates": [0, 0, -1]}}
-        self.refused(lambda: ricochet.sweep(arm, {"mass_matrix[3]": 0}, "newton"), "axes",
-                     "did you mean mechanism.mass_matrix[1]?")
+        self.refused(lambda: ricochet.sweep(arm, {"mass_matrix[9]": 0}, "newton"), "axes",
+                     "did you mean mechanism.mass_matrix[8]?")
         links = [{"length_m": 1, "mass_kg": 1, "com_m": 0.5, "inertia_com_kg_m2": 0.1, "theta_rad": 0.1}] * 2
         self.refused(lambda: ricochet.sweep({"linkage": {"links": links}}, {"theta": 0}, "newton"), "axes",
                      "must name one of linkage.links[0].theta_rad, linkage.links[1].theta_rad")

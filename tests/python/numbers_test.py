@@ -257,6 +257,18 @@ class Jacobians(unittest.TestCase):
         expected = [[0.8 * root * slope, root, 0], [-0.8 / root * slope, 1 / root, 0]]
         np.testing.assert_allclose(got, expected, rtol=1e-14, atol=1e-15)
 
+    def test_both_entries_across_the_diagonal_of_a_mass_matrix_are_numbers_of_the_scene(self):
+        def after(entry):
+            mass = [[2, entry], [entry, 1]]
+            arm = {"mechanism": {"mass_matrix": mass, "jacobian": np.eye(2), "rates": [1, -1]},
+                   "friction": {"kinetic_coefficient": 0.25}, "restitution": {"newton": 0.5}}
+            return arm, ricochet.solve(arm).rates_after
+
+        entries = ["mass_matrix[1]", "mass_matrix[2]"]
+        found = ricochet.jacobian(after(0.125)[0], ["rates_after[0]", "rates_after[1]"], entries)
+        quotient = (np.array(after(0.125 + 1e-4)[1]) - after(0.125 - 1e-4)[1]) / 2e-4
+        np.testing.assert_allclose(found, np.transpose([quotient, quotient]), rtol=1e-6, atol=1e-8)
+
     def test_sides_of_a_threshold_are_asked_for_by_name(self):
         scene = {**self.SCENE, "pendulum": {**self.SCENE["pendulum"], "b_m": 0}}
         sides = {side: ricochet.jacobian(scene, "newton", "b", side=side)[0, 0] for side in ("both", "below", "above")}

@@ -79,12 +79,13 @@ absl::StatusOr<std::string> FullName(const std::string& name, const std::vector<
 }
 
 absl::StatusOr<std::string> FullField(const Scene& scene, const std::string& name, const std::string& what) {
-  return FullName(name, FieldPaths(scene), what);
+  return FullName(name, AllFieldPaths(scene), what);
 }
 
 Spelling SpellingOf(const std::string& path) {
   const FieldInfo* const info = FindFieldInfo(path);
-  return info != nullptr && info->unit == "rad" ? Spelling::kAngle : Spelling::kNumber;
+  // A path that is no field is refused by its name, whatever its values are.
+  return info == nullptr || info->unit == "rad" ? Spelling::kAngle : Spelling::kNumber;
 }
 
 // Completes both names of a derivative: that of a number among `ofs`, and that of a field among `bys`.
@@ -119,7 +120,7 @@ absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const s
           "--column ", name, ": is no number: sweep --regime prints regime and status, and solve --data always does"));
     }
     if (const auto derivative = ReadDerivativeName(absl::StripAsciiWhitespace(name))) {
-      absl::StatusOr<std::string> full = FullDerivative(*derivative, known, FieldPaths(scene));
+      absl::StatusOr<std::string> full = FullDerivative(*derivative, known, AllFieldPaths(scene));
       if (!full.ok()) return full.status();
       columns.push_back(*std::move(full));
       continue;

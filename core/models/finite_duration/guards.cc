@@ -35,6 +35,15 @@ void SetCompliantGuards(const ScaledContact& contact, const Mode& mode, const Mo
   }
 }
 
+// True if v would rise where N = 0. Otherwise N only comes close to 0 before the end of restitution, the closer the
+// stronger the damping is, and that it falls below 0 is rounding.
+bool IsPulledApart(const ScaledContact& contact, const Mode& mode, const Motion& y) {
+  Forces forces = ForcesAt(contact, mode, y);
+  if (!(mode.Sticks() && contact.compliant)) forces.tangential = 0.0;
+  forces.normal = 0.0;
+  return AccelerationAt(contact, mode, forces).v > 0.0;
+}
+
 }  // namespace
 
 Guards GuardsAt(const ScaledContact& contact, const Mode& mode, const Motion& y) {
@@ -51,9 +60,9 @@ Guards GuardsAt(const ScaledContact& contact, const Mode& mode, const Motion& y)
   if (contact.damped) {
     // The guard of the extreme force is N' over x^(p-1).
     const double x = contact.rooted ? Square(y[kPlace]) : y[kPlace];
-    const double stretch = 1.0 - contact.damping * y[kV];
+    const double stretch = Stretch(contact, y);
     guards[kForceExtreme] = -contact.exponent * y[kV] * stretch - x * contact.damping * rate.v;
-    if (mode.Unloads()) guards[kTension] = stretch;
+    if (mode.Unloads() && IsPulledApart(contact, mode, y)) guards[kTension] = stretch;
   }
   if (mode.friction == FrictionState::kNone) return guards;
   if (contact.compliant) {

@@ -1,5 +1,7 @@
 #include "core/models/finite_duration/history.h"
 
+#include <algorithm>
+
 namespace ricochet::finite_duration {
 
 void HistoryRecorder::AddSamplesOfStep(const Mode& mode, const Motion& y, StopCheck& stop) {
@@ -19,7 +21,8 @@ void HistoryRecorder::End(const Mode& mode, const Motion& y) {
 
 ForceSample HistoryRecorder::SampleOf(const Mode& mode, const Motion& y, double time) const {
   const Forces forces = ForcesAt(contact_, mode, y);
-  return {time, forces.tangential, forces.normal, Indentation(contact_, mode, y), y[kU], y[kV]};
+  // A contact does not pull: N < 0 is rounding.
+  return {time, forces.tangential, std::max(forces.normal, 0.0), Indentation(contact_, mode, y), y[kU], y[kV]};
 }
 
 // The motion at `time`, which lies in the last step.

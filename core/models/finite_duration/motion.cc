@@ -35,6 +35,8 @@ double ParticleSpeed(const ScaledContact& contact, const Mode& mode, double dire
   return direction * u + share * v;
 }
 
+double Stretch(const ScaledContact& contact, const Motion& y) { return 1.0 - contact.damping * y[kV]; }
+
 Motion MotionAtStart(const ScaledContact& contact) {
   Motion y = {};
   y[kU] = contact.u0;
@@ -54,7 +56,7 @@ double Indentation(const ScaledContact& contact, const Mode& mode, const Motion&
 }
 
 Forces ForcesAt(const ScaledContact& contact, const Mode& mode, const Motion& y) {
-  const double normal = LoadingCurve(contact, y[kPlace]) * (1.0 - contact.damping * y[kV]);
+  const double normal = LoadingCurve(contact, y[kPlace]) * Stretch(contact, y);
   switch (mode.friction) {
     case FrictionState::kNone:
       return {normal, 0.0};

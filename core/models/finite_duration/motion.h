@@ -61,6 +61,9 @@ double LoadingCurve(const ScaledContact& contact, double place);
 // follows from that of the contact in the same way.
 double ParticleSpeed(const ScaledContact& contact, const Mode& mode, double direction, double u, double v);
 
+// 1 - c v, the factor of damping in N.
+double Stretch(const ScaledContact& contact, const Motion& y);
+
 Motion MotionAtStart(const ScaledContact& contact);
 double Indentation(const ScaledContact& contact, const Mode& mode, const Motion& y);
 Forces ForcesAt(const ScaledContact& contact, const Mode& mode, const Motion& y);

@@ -265,7 +265,8 @@ std::vector<BadInput> Sweeps() {
       {Axis("pendulum.a_m=lin:1:inf:3"), "axes[0].linspace.stop = inf: must be finite", ""},
       {Axis("pendulum.a_m=log:0:1:3"), "axes[0].logspace.start = 0: must be finite and > 0", ""},
       {Axis("pendulum.mass_kg=1"),
-       "axes[0].path = \"pendulum.mass_kg\": must be a field of the scene; `ricochet sweep --axis '?'` lists them\n",
+       "axes[0].path = \"pendulum.mass_kg\": must be a field that the scene states; `ricochet sweep --axis '?'` lists "
+       "them\n",
        ""},
       {Plus(Axis("pendulum.a_m=1"), {"--axis", "pendulum.phi_rad=1"}), "axes[1].path", ""},
       {Plus(Axis("pendulum.a_m=lin:1:2:1e9"), {"--axis", "pendulum.b_m=lin:1:2:1e9"}), "more than 2^53 points", ""},

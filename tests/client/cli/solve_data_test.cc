@@ -154,7 +154,7 @@ TEST_F(CliSolveData, AColumnWithoutANameCanBeSkipped) {
 
 TEST_F(CliSolveData, AnUnknownColumnIsNamedByItsPlace) {
   EXPECT_THAT(Solve("mu,note,id\n0.1,1,2\n", {"--skip-column", "note"}).err,
-              AllOf(HasSubstr("--data, column 3 = \"id\": must be a field of the scene"),
+              AllOf(HasSubstr("--data, column 3 = \"id\": must be a field that the scene states"),
                     HasSubstr("--skip-column leaves a column out")));
 }
 

@@ -242,6 +242,20 @@ TEST(DifferencesTest, VelocityThatIsZeroDoesNotJump) {
   EXPECT_EQ(impulse.from_above, 0.0);
 }
 
+// A coordinate at rest that the impact does not touch: nothing changes it.
+TEST(DifferencesTest, VelocityThatStaysAtRestHasTheDerivativeZero) {
+  const Scene arm = {.system = Mechanism{.mass_matrix = {1, 0, 0, 0, 1, 0, 0, 0, 1},
+                                         .jacobian = {1, 0, 0, 0, 0, 0, 0, 1, 0},
+                                         .rates = {1.0, -1.0, 0.0}},
+                     .friction = {.kinetic_coefficient = 0.3},
+                     .restitution = NewtonCoefficient{0.5}};
+  for (const char* by : {"mechanism.rates[0]", "mechanism.rates[1]", kMu}) {
+    const Derivative d = Only(arm, "rates_after[2]", by);
+    EXPECT_EQ(d.kind, DerivativeKind::kTwoSided) << by << d.reason;
+    EXPECT_EQ(d.value, 0.0) << by;
+  }
+}
+
 TEST(DifferencesTest, RateOfAPlasticPendulumOnATangentialSpringFollowsItsContact) {
   const Scene scene = {.system = Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.5, .b_m = 0.3, .omega_minus_rad_s = -1.0},
                        .friction = {.kinetic_coefficient = 0.1},

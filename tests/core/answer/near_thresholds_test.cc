@@ -127,6 +127,18 @@ TEST(NearThresholds, HaveTheirNames) {
   EXPECT_NEAR(found[2].below->distance, 1.0 / slip.SlipThatStops(1.5) - 1.0, 1e-13);
 }
 
+// At mu = 1 slip stops just where compression ends, at a double that is hit exactly.
+TEST(NearThresholds, OneThatIsHitExactlyHasTheNameOfItsNeighbours) {
+  for (const double mu : {0.6, 1.2}) {
+    const Slip slip = {.w_tt = 2.0, .w_tn = 1.0, .w_nn = 2.0, .u = -1.0, .mu = mu, .e = 0.5};
+    const Derivative found = DerivativesOf(slip.Stated(), {kFriction}).front();
+    const std::optional<NearThreshold>& near = mu < 1.0 ? found.above : found.below;
+    ASSERT_TRUE(near.has_value());
+    EXPECT_EQ(near->threshold, Threshold::kCompressionEnd) << mu;
+    EXPECT_NEAR(near->distance, std::fabs(1.0 - mu), 1e-15);
+  }
+}
+
 // The friction that holds is that of sliding where the scene states none of its own, and cannot be less.
 TEST(NearThresholds, OfTheStaticFrictionThatIsNotStated) {
   const Slip slip = {.w_tt = 3.0, .w_tn = -1.2, .w_nn = 1.5, .u = 0.1, .mu = 0.3, .e = 0.5};

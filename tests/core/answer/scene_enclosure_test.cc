@@ -471,7 +471,7 @@ TEST(SceneEnclosureTest, RefusesPathsThatItDoesNotKnow) {
     const auto violations = Refused(SomePendulum(), {{path, 0.5, 0.6}});
     ASSERT_THAT(violations, ElementsAre(Field(&Violation::field, "ranges[0].path"))) << path;
     EXPECT_THAT(violations[0].description,
-                HasSubstr("must be a field of the scene; `ricochet sweep --axis '?'` lists them"));
+                HasSubstr("must be a field that the scene states; `ricochet sweep --axis '?'` lists them"));
   }
 }
 

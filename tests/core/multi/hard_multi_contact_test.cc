@@ -135,6 +135,18 @@ TEST(HardMultiContactTest, AnElasticBallInASlotHasNoLimit) {
   EXPECT_FALSE(orders.complete);
   EXPECT_EQ(orders.outcomes.front().attained.end, MultiContactEnd::kBudgetUsedUp);
   EXPECT_EQ(FindSprings(Slot(1.0, 1.0), std::nullopt, kNever, 500).end, MultiContactEnd::kBudgetUsedUp);
+  const auto verdict = [](double e, std::vector<MultiContactMethod> methods) {
+    MultiContactScene scene;
+    scene.system =
+        ContactMatrix{.w_per_kg = {0, 0, 0, 0, 0, 2, 0, -2, 0, 0, 0, 0, 0, -2, 0, 2}, .velocity_m_s = {0, -1, 0, 1}};
+    scene.contacts = {{.energetic = 1.0}, {.energetic = e}};
+    return AnswerTo({.scene = scene, .methods = std::move(methods)}).verdict;
+  };
+  for (const std::vector<MultiContactMethod>& methods :
+       {std::vector<MultiContactMethod>{}, {MultiContactMethod::kPossible}}) {
+    EXPECT_EQ(verdict(1.0, methods), MultiContactVerdict::kUnspecified);
+    EXPECT_EQ(verdict(0.5, methods), MultiContactVerdict::kSingle);  // Its limit is rest.
+  }
 }
 
 // The feet of a wide box on a smooth floor: after the first impact both strike without end, and both orders agree.
@@ -315,6 +327,21 @@ TEST(HardMultiContactTest, ThreeFeetShareTheLoadOfEqualSprings) {
   for (const size_t n : {1U, 3U, 5U}) EXPECT_NEAR(springs.impulse_n_s[n], 0.5, 1e-14);
   EXPECT_FALSE(springs.friction_split_is_unique);
   EXPECT_NEAR(springs.velocity[2], 0.0, 1e-15);
+}
+
+// Feet that stop to slip together share friction as feet that never slip do, and not as if one of them slipped on.
+TEST(HardMultiContactTest, FeetThatStopTogetherShareFrictionLikeThoseThatNeverSlip) {
+  const auto springs_at = [](double slip) {
+    MultiContactScene scene = FallingBlock(0.5, 0.5);
+    std::get<FreeBodies>(scene.system).bodies.front().linear_m_s[0] = slip;
+    return *AnswerTo({.scene = scene}).springs;
+  };
+  const AttainedOutcome still = springs_at(0.0);
+  for (const double slip : {1e-9, 1e-6, 1e-3, 0.1}) {
+    const AttainedOutcome moving = springs_at(slip);
+    EXPECT_FALSE(moving.friction_split_is_unique) << slip;
+    for (size_t i = 0; i < 4; ++i) EXPECT_NEAR(moving.impulse_n_s[i], still.impulse_n_s[i], 2.0 * slip) << slip << i;
+  }
 }
 
 // The second contact moves along the floor at first: v_n = 0, and it is pressed only by what the first does.

@@ -111,7 +111,7 @@ TEST(FieldTest, UnknownPathsAreRefusedAndLeaveTheSceneAsItWas) {
     ASSERT_FALSE(field.ok()) << path;
     EXPECT_EQ(field.status().code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(std::string(field.status().message()),
-                HasSubstr("must be a field of the scene; `ricochet sweep --axis '?'` lists them"));
+                HasSubstr("must be a field that the scene states; `ricochet sweep --axis '?'` lists them"));
     EXPECT_EQ(scene, BaseScene());
   }
 }

@@ -199,6 +199,52 @@ TEST(FiniteDurationTest, HuntCrossleyImpliesTheCoefficientOfItsPhasePlane) {
   }
 }
 
+// The duration of an impact with k = Wnn = |v0| = 1 and strong damping. With y = 1 - c v the integral above is
+// y - ln(y) = 1 + c^2 (D^(p+1) - d^(p+1))/(p+1), D the largest indentation, of which y > 1 is the root in compression
+// and y < 1 that in restitution; dt = dd/|v|.
+double DurationOfStrongDamping(double c, double p) {
+  const double largest = (p + 1.0) * (1.0 / c - std::log1p(c) / (c * c));  // D^(p+1)
+  const auto speed_at = [&](double part, bool in_restitution) {            // part = 1 - (d/D)^(p+1)
+    const double level = c * c * largest / (p + 1.0) * part;               // y - 1 - ln(y) = level
+    if (in_restitution && level > 30.0) return 1.0 / c;
+    // x = y - 1 by Newton's method from outside the root, because x - ln(1 + x) is convex.
+    double x = in_restitution ? std::expm1(-level - 1.0 + std::exp(-level - 1.0)) : std::sqrt(2.0 * level) + level;
+    double step = x;
+    for (int i = 0; i < 60 && std::fabs(step) > 1e-13 * std::fabs(x); ++i) {
+      step = (x - std::log1p(x) - level) * (1.0 + x) / x;
+      x -= step;
+    }
+    return std::fabs(x) / c;
+  };
+  double sum = 0.0;
+  constexpr int kPieces = 20'000;
+  for (int i = 0; i < kPieces; ++i) {  // d = D (1 - s^2), so that nothing is infinite at v = 0.
+    const double s = (i + 0.5) / kPieces;
+    const double part = -std::expm1((p + 1.0) * std::log1p(-s * s));
+    for (const bool in_restitution : {false, true}) sum += 2.0 * s / speed_at(part, in_restitution);
+  }
+  return std::pow(largest, 1.0 / (p + 1.0)) * sum / kPieces;
+}
+
+TEST(FiniteDurationTest, StrongDampingTakesTheTimeOfItsPhasePlane) {
+  for (const double p : {1.0, 1.5, 2.2}) {
+    for (const double c : {5.0, 20.0, 36.0, 40.0, 100.0, 2000.0}) {
+      const double duration = DurationOfStrongDamping(c, p);
+      for (const double tolerance : {1e-12, 1e-6, 1e-4}) {
+        const Impact impact = Solve({.contact = {.w = {0.0, 0.0, 1.0}, .v0 = -1.0},
+                                     .spring = HuntCrossleySpring{1.0, p, c},
+                                     .tolerance = tolerance,
+                                     .intervals = 16});
+        ASSERT_TRUE(impact.Converged()) << p << " " << c;
+        EXPECT_NEAR(impact.contact.duration_s / duration, 1.0, std::max(1e-8, 10.0 * c * tolerance))
+            << p << " " << c << " " << tolerance;
+        EXPECT_NEAR(impact.contact.history.back().indentation_m / impact.contact.indentation_m, 0.0, 1e-12);
+        for (const ForceSample& sample : impact.contact.history) EXPECT_GE(sample.normal_n, 0.0);
+      }
+    }
+  }
+}
+
 TEST(FiniteDurationTest, HuntCrossleyWithoutDampingIsElasticToTheBit) {
   const Impact impact = Solve(Rod(HuntCrossleySpring{1e6, 1.5, 0.0}));
   EXPECT_EQ(impact.energetic, 1.0);
