@@ -202,7 +202,7 @@ class Sides {
       return {.why_none = "the number jumps"};
     }
     constexpr double kVague = 0.1;
-    constexpr double kNegligible = 1e-6;
+    constexpr double kNegligible = 1e-4;
     const double negligible = kNegligible * source_.scale(i) / line_.unit();
     // What no neighbour changes does not change, however vague the number itself is.
     const bool stays = rate == 0.0 && std::isfinite(error);

@@ -28,6 +28,15 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // The name at the end of a path.
 absl::string_view NameOf(absl::string_view path) { return path.substr(path.rfind('.') + 1); }
 
+// The numbers with errors of their own of which the number with this name is a sum.
+std::vector<absl::string_view> PartsOf(absl::string_view name) {
+  if (name == "normal_total_j") return {"normal_compression_j", "normal_restitution_j"};
+  if (name == "tangential_total_j" || name == "friction_dissipation_j") {
+    return {"tangential_compression_j", "tangential_restitution_j"};
+  }
+  return {name};
+}
+
 ptrdiff_t SpeedsBelow(double speed, const std::optional<SpeedDependence>& dependence) {
   const auto* const table = dependence.has_value() ? std::get_if<SpeedTable>(&*dependence) : nullptr;
   if (table == nullptr) return 0;
@@ -117,9 +126,11 @@ class OutcomeSource final : public SampleSource {
     };
     for (const std::string& path : of) {
       const absl::string_view name = NameOf(path);
-      const size_t own = place_of(absl::StrCat("errors.", name));
       places_.push_back(place_of(path));
-      error_places_.push_back(own < paths.size() ? own : place_of(absl::StrCat("errors.", HeadOf(name))));
+      std::vector<size_t>& errors = error_places_.emplace_back();
+      for (const absl::string_view part : PartsOf(name)) errors.push_back(place_of(absl::StrCat("errors.", part)));
+      const bool has_own = errors.front() < paths.size();
+      if (!has_own) errors.front() = place_of(absl::StrCat("errors.", HeadOf(name)));
     }
   }
 
@@ -137,7 +148,9 @@ class OutcomeSource final : public SampleSource {
     const double relative = std::max(outcome.accuracy.relative_error, 0x1p-51);
     Sample sample = {.course = CourseOf(scene, outcome)};
     for (size_t i = 0; i < places_.size(); ++i) {
-      const double value = At(places_[i], numbers), error = At(error_places_[i], numbers);
+      const double value = At(places_[i], numbers);
+      double error = 0.0;
+      for (const size_t place : error_places_[i]) error += At(place, numbers);
       sample.value.push_back(value);
       sample.error.push_back(std::isfinite(error) ? std::max(error, 0x1p-52 * std::fabs(value))
                                                   : relative * scales_[i]);
@@ -147,8 +160,10 @@ class OutcomeSource final : public SampleSource {
 
   Demand demand_;
   absl::FunctionRef<bool()> stopped_;
-  // The places of each number and of its error among the numbers of an outcome; behind the last one if there is none.
-  std::vector<size_t> places_, error_places_;
+  // The places of each number and of the errors of its parts among the numbers of an outcome; behind the last one if
+  // there is none.
+  std::vector<size_t> places_;
+  std::vector<std::vector<size_t>> error_places_;
 };
 
 }  // namespace

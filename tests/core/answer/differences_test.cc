@@ -256,6 +256,28 @@ TEST(DifferencesTest, VelocityThatStaysAtRestHasTheDerivativeZero) {
   }
 }
 
+// The works that add up to a total err by more than its other digits: the spheres slip straight on here, and turn
+// beside. By symmetry the derivative is 0.
+TEST(DifferencesTest, TotalOfWorksHasTheErrorsOfItsParts) {
+  const auto sphere = [](double n, std::vector<double> velocity) {
+    return SpatialBody{.mass_kg = 1.0,
+                       .inertia_com_kg_m2 = {0.4, 0.0, 0.0, 0.4, 0.0, 0.4},
+                       .offset_m = {0.0, 0.0, n},
+                       .linear_m_s = {velocity[0], velocity[1], velocity[2]},
+                       .angular_rad_s = {0.0, 0.0, 0.0}};
+  };
+  const Scene scene = {.system = BodyPair{.bodies = SpatialPair{.body_1 = sphere(-0.1, {0.3, 0.0, -1.0}),
+                                                                .body_2 = sphere(0.1, {0.0, 0.0, 0.0})}},
+                       .friction = {.kinetic_coefficient = 0.2},
+                       .restitution = NewtonCoefficient{0.5}};
+  for (const char* of : {"work.normal_total_j", "work.tangential_total_j", "work.friction_dissipation_j"}) {
+    const Derivative d = Only(scene, of, "body_pair.spatial.body_1.offset_m[1]");
+    EXPECT_EQ(d.kind, DerivativeKind::kTwoSided) << of << d.reason;
+    EXPECT_LE(std::fabs(d.value.value_or(1.0)), d.error.value_or(0.0)) << of;
+    EXPECT_LE(d.error.value_or(1.0), 1e-6) << of;
+  }
+}
+
 TEST(DifferencesTest, RateOfAPlasticPendulumOnATangentialSpringFollowsItsContact) {
   const Scene scene = {.system = Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.5, .b_m = 0.3, .omega_minus_rad_s = -1.0},
                        .friction = {.kinetic_coefficient = 0.1},

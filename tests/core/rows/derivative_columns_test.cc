@@ -95,7 +95,7 @@ std::string Refusal(const std::string& column, const DemandFields& demand = {}) 
 
 TEST(DerivativeColumnsTest, WrongNamesAreRefused) {
   EXPECT_THAT(Refusal("d(coefficients.newtn)/d(friction.kinetic_coefficient)"),
-              HasSubstr("must have in its first d() a velocity, an impulse, a work or a coefficient"));
+              HasSubstr("must have in its first d() a coefficient, an impulse, a contact velocity"));
   EXPECT_THAT(Refusal("d(coefficients.newton)/d(friction.kinetic)"), HasSubstr("must have in its second d() a number"));
   EXPECT_THAT(Refusal("d(contact.duration_s)/d(friction.kinetic_coefficient)"), HasSubstr("first d()"));
   EXPECT_THAT(Refusal("d(coefficients.newton)/(friction.kinetic_coefficient)"), HasSubstr("be a column of the scene"));
