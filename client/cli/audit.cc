@@ -26,8 +26,9 @@ constexpr char kExample[] =
   ...
 --data FILE.csv audits many impacts at one contact. Its header names the columns: tangential_m_s and normal_m_s before
 the impact (default: those of the scene), tangential_after_m_s, normal_after_m_s, friction (default: that of the scene)
-and velocity_uncertainty_m_s; in space also tangential_2_m_s and tangential_2_after_m_s. For a pendulum or a linkage,
-rates_after_rad_s[0] and so on, one for each link, may replace the velocity after. Text prints a summary; csv and jsonl
+and velocity_uncertainty_m_s; in space also tangential_2_m_s and tangential_2_after_m_s. All velocities of the system
+after, as `ricochet scene columns` lists them, may replace that of the contact: rates_after_rad_s[0], or
+bodies_after[0].linear_m_s[0], bodies_after[0].linear_m_s[1] and bodies_after[0].angular_rad_s[0]. Text prints a summary; csv and jsonl
 print a line for each impact, and the summary on standard error; json prints both. A row with a cell that is no number,
 or that breaks a rule, is INVALID and has its reason; the others are still audited. Cells are separated by commas and
 may stand in double quotes; numbers have a decimal point.
@@ -114,8 +115,10 @@ void AddAudit(CLI::App& app, Command& command) {
       app, "audit", "What observed impacts imply, and which physical limits they break", kExample, RunAudit, command);
   AddSceneOptions(*sub, options->scene);
   CLI::Option* rate =
-      sub->add_option("--observed-rate", options->rate,
-                      "Angular velocity after, rad/s: of a pendulum, or of each link of a linkage, separated by commas")
+      sub->add_option(
+             "--observed-rate", options->rate,
+             "All velocities of the system after: the rate of a pendulum, those of links or coordinates, or of "
+             "each body its linear velocity, then its angular one; m/s and rad/s")
           ->type_name("X[,X...]");
   sub->add_option("--observed-velocity", options->velocity,
                   "Contact velocity after, m/s: tangential (two in space), then normal")

@@ -18,6 +18,7 @@
 #include "client/cli/text/json_text.h"
 #include "core/audit/audit_scene.h"
 #include "core/base/counted.h"
+#include "core/scene/system_velocities.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
 
@@ -210,8 +211,8 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
     if (!unknown) size = static_cast<int64_t>(bytes);
   }
   std::istream& stream = is_standard ? std::cin : static_cast<std::istream&>(file);
-  absl::StatusOr<AuditTable> table =
-      AuditTable::Open(stream, is_standard ? "standard input" : data.file, data.skipped_columns);
+  absl::StatusOr<AuditTable> table = AuditTable::Open(stream, is_standard ? "standard input" : data.file,
+                                                      SystemVelocityPaths(scene.system), data.skipped_columns);
   if (absl::Status read = CheckWholeRead(stream, data.file); !read.ok()) return read;
   if (!table.ok()) return table.status();
   if (data.uncertainty_m_s.has_value() && table->has_uncertainty()) {

@@ -11,35 +11,10 @@
 #include "core/base/nearest.h"
 #include "core/models/planar_outputs.h"
 #include "core/scene/field.h"
+#include "core/scene/system_velocities.h"
 
 namespace ricochet {
 namespace {
-
-struct VelocityPaths {
-  std::vector<std::string>& paths;
-  size_t tangential;  // Directions.
-
-  void operator()(std::monostate) const {}
-  void operator()(const PlanarContact& /*contact*/) const {}
-  void operator()(const SpatialContact& /*contact*/) const {}
-  void operator()(const SpatialBody& /*body*/) const { Bodies(1); }
-  void operator()(const Pendulum& /*pendulum*/) const { List("rates_after_rad_s", 1); }
-  void operator()(const Linkage& linkage) const { List("rates_after_rad_s", linkage.links.size()); }
-  void operator()(const Mechanism& mechanism) const { List("rates_after", mechanism.rates.size()); }
-  void operator()(const PlanarBody& /*body*/) const { Bodies(1); }
-  void operator()(const BodyPair& /*pair*/) const { Bodies(2); }
-
- private:
-  void List(const std::string& name, size_t count) const {
-    for (size_t i = 0; i < count; ++i) paths.push_back(absl::StrCat(name, "[", i, "]"));
-  }
-  void Bodies(int count) const {
-    for (int i = 0; i < count; ++i) {
-      List(absl::StrCat("bodies_after[", i, "].linear_m_s"), tangential + 1);
-      List(absl::StrCat("bodies_after[", i, "].angular_rad_s"), tangential == 1 ? 1 : 3);
-    }
-  }
-};
 
 std::vector<std::string> OutputPaths(const Scene& scene) {
   const size_t tangential = TangentialDirections(scene.system);
@@ -49,7 +24,7 @@ std::vector<std::string> OutputPaths(const Scene& scene) {
     if (tangential == 2 && absl::EndsWith(path, "[0]"))
       paths.push_back(absl::StrCat(absl::StripSuffix(path, "0]"), "1]"));
   }
-  const std::vector<std::string> velocities = SystemVelocityPaths(scene);
+  const std::vector<std::string> velocities = SystemVelocityPaths(scene.system);
   paths.insert(paths.end(), velocities.begin(), velocities.end());
   if (TakesTime(scene)) {
     for (const char* number : {"duration_s", "peak_normal_n", "peak_tangential_n", "indentation_m"}) {
@@ -80,12 +55,6 @@ void CheckPaths(const char* list, const std::vector<std::string>& paths, const s
     violations.push_back(MakeViolation(absl::StrCat("derivatives.", list, "[", i, "]"), Found(paths[i]),
                                        absl::StrCat("be ", what, DidYouMean(paths[i], known))));
   }
-}
-
-std::vector<std::string> SystemVelocityPaths(const Scene& scene) {
-  std::vector<std::string> paths;
-  std::visit(VelocityPaths{paths, TangentialDirections(scene.system)}, scene.system);
-  return paths;
 }
 
 DerivativePaths AllDerivativePaths(const Scene& scene) {

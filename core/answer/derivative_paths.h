@@ -17,9 +17,6 @@ namespace ricochet {
 // scene must be valid.
 DerivativePaths AllDerivativePaths(const Scene& scene);
 
-// The paths of the velocities of the system itself after the impact, in the order of Reduction::before.
-std::vector<std::string> SystemVelocityPaths(const Scene& scene);
-
 // Adds a violation for an empty list of paths, "of" or "by", and one for each path that is not `known`; `what` says
 // what a path must name.
 void CheckPaths(const char* list, const std::vector<std::string>& paths, const std::vector<std::string>& known,

@@ -11,12 +11,12 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
-#include "core/answer/derivative_paths.h"
 #include "core/answer/derivative_sides.h"
 #include "core/answer/differences.h"
 #include "core/answer/scene_outcome.h"
 #include "core/contact/scene_contact.h"
 #include "core/plan/number_demand.h"
+#include "core/scene/system_velocities.h"
 #include "core/scene/validate.h"
 #include "ricochet/outcome_numbers.h"
 
@@ -74,7 +74,7 @@ class OutcomeSource final : public SampleSource {
     FindPlaces(outcome, of);
     if (!contact.has_value()) contact.emplace(scene);
     const std::vector<double> numbers = NumbersOf(outcome);
-    const std::vector<std::string> velocities = SystemVelocityPaths(scene);
+    const std::vector<std::string> velocities = SystemVelocityPaths(scene.system);
     for (size_t i = 0; i < of.size(); ++i) {
       const double value = At(places_[i], numbers);
       const auto velocity =

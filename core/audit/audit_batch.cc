@@ -16,6 +16,7 @@
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
 #include "core/scene/numbers.h"
+#include "core/scene/system_velocities.h"
 #include "ricochet/audit_columns.h"
 #include "ricochet/error.h"
 
@@ -32,7 +33,7 @@ struct ColumnRule {
 
 ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool is_planar) {
   ColumnRule rule = {absl::StrCat("columns.", column.name), in.*column.values};
-  const bool has_rates = !in.rates_after_rad_s.empty();
+  const bool has_rates = !in.rates_after.empty();
   if (column.is_spatial && is_planar) {
     rule.refused_for = "for a planar system";
   } else if (column.part == AuditColumnPart::kAfter) {
@@ -45,23 +46,23 @@ ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool i
 std::vector<ColumnRule> Rules(const AuditColumns& in, size_t directions) {
   std::vector<ColumnRule> rules;
   for (const NamedAuditColumn& column : kAuditColumns) rules.push_back(RuleOf(column, in, directions == 1));
-  for (size_t i = 0; i < in.rates_after_rad_s.size(); ++i) {
-    rules.push_back({.name = absl::StrCat("columns.rates_after[", i, "].rates_rad_s"),
-                     .values = in.rates_after_rad_s[i],
+  for (size_t i = 0; i < in.rates_after.size(); ++i) {
+    rules.push_back({.name = absl::StrCat("columns.rates_after[", i, "].values"),
+                     .values = in.rates_after[i],
                      .is_required = true});
   }
   return rules;
 }
 
 void CheckRateColumns(const AuditColumns& columns, const System& system, std::vector<Violation>& violations) {
-  const size_t found = columns.rates_after_rad_s.size();
+  const size_t found = columns.rates_after.size();
   if (found == 0) return;
-  const std::optional<size_t> wanted = audit::RateCount(system);
-  if (!wanted.has_value()) {
-    violations.push_back(MakeViolation("columns.rates_after", "is set",
-                                       "not be but for a pendulum or a linkage, give the contact's velocity"));
-  } else if (found != *wanted) {
-    violations.push_back(CountViolation("columns.rates_after", found, *wanted));
+  const size_t wanted = SystemVelocityPaths(system).size();
+  if (wanted == 0) {
+    violations.push_back(
+        MakeViolation("columns.rates_after", "is set", "not be for a contact alone, give the contact's velocity"));
+  } else if (found != wanted) {
+    violations.push_back(CountViolation("columns.rates_after", found, wanted));
   }
 }
 
@@ -207,11 +208,11 @@ void AuditRows::SetFriction(size_t row, double& mu, double& mu_static) const {
 
 audit::Observation AuditRows::ObservationAt(size_t row) const {
   audit::Observation seen;
-  if (!columns_.rates_after_rad_s.empty()) {
-    Components rates;
-    for (const std::vector<double>& column : columns_.rates_after_rad_s) rates.push_back(ValueAt(column, row));
+  if (!columns_.rates_after.empty()) {
+    std::vector<double> rates;
+    for (const std::vector<double>& column : columns_.rates_after) rates.push_back(ValueAt(column, row));
     const ContactVelocity velocity = ContactVelocityAt(scene_, rates);
-    seen.u1[0] = velocity.tangential_m_s[0];
+    std::copy(velocity.tangential_m_s.begin(), velocity.tangential_m_s.end(), seen.u1.begin());
     seen.v1 = velocity.normal_m_s;
   } else {
     seen.u1[0] = ValueAt(columns_.tangential_after_m_s, row);

@@ -33,12 +33,6 @@ std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact
   return violations;
 }
 
-std::optional<size_t> RateCount(const System& system) {
-  if (const auto* linkage = std::get_if<Linkage>(&system); linkage != nullptr) return linkage->links.size();
-  if (std::holds_alternative<Pendulum>(system)) return 1;
-  return std::nullopt;
-}
-
 Scene WithoutRestitution(Scene scene) {
   scene.restitution = std::monostate();
   scene.restitution_by_speed.reset();

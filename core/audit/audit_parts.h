@@ -19,9 +19,6 @@ namespace ricochet::audit {
 // `contact` is that of a scene without violations.
 std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact);
 
-// Returns the number of rates that a pendulum (1) or a linkage (one a link) has; nothing for other systems.
-std::optional<size_t> RateCount(const System& system);
-
 // Removes the restitution and the impact law, which an audit does not use.
 Scene WithoutRestitution(Scene scene);
 

@@ -12,6 +12,7 @@
 #include "core/contact/moved_contact.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
+#include "core/scene/system_velocities.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
@@ -33,16 +34,15 @@ void CheckVelocity(const ContactVelocity& velocity, size_t directions, std::vect
 }
 
 void CheckRates(const Components& rates, const System& system, std::vector<Violation>& violations) {
-  const std::optional<size_t> wanted = audit::RateCount(system);
-  if (!wanted.has_value()) {
-    violations.push_back(
-        MakeViolation("rates", "is set", "not be but for a pendulum or a linkage, give contact_velocity"));
+  const size_t wanted = SystemVelocityPaths(system).size();
+  if (wanted == 0) {
+    violations.push_back(MakeViolation("rates", "is set", "not be for a contact alone, give contact_velocity"));
     return;
   }
-  if (rates.size() != *wanted) violations.push_back(CountViolation("rates.rates_rad_s", rates.size(), *wanted));
+  if (rates.size() != wanted) violations.push_back(CountViolation("rates.values", rates.size(), wanted));
   for (size_t i = 0; i < rates.size() && !IsFull(violations); ++i) {
     if (std::isfinite(rates[i])) continue;
-    violations.push_back(MakeViolation(absl::StrCat("rates.rates_rad_s[", i, "]"), rates[i], "be finite"));
+    violations.push_back(MakeViolation(absl::StrCat("rates.values[", i, "]"), rates[i], "be finite"));
   }
 }
 
@@ -54,7 +54,7 @@ std::vector<Violation> ValidateRequest(const AuditRequest& request, std::optiona
   } else if (const auto* velocity = std::get_if<ContactVelocity>(&request.observed); velocity != nullptr) {
     if (has_system) CheckVelocity(*velocity, TangentialDirections(request.scene.system), violations);
   } else if (has_system) {
-    CheckRates(std::get<ObservedRates>(request.observed).rates_rad_s, request.scene.system, violations);
+    CheckRates(std::get<ObservedRates>(request.observed).values, request.scene.system, violations);
   }
   const double uncertainty = request.velocity_uncertainty_m_s;
   if (!(uncertainty >= 0.0) || !std::isfinite(uncertainty)) {
@@ -65,7 +65,7 @@ std::vector<Violation> ValidateRequest(const AuditRequest& request, std::optiona
 
 ContactVelocity VelocityOf(const Observed& observed, const Scene& scene) {
   const auto* velocity = std::get_if<ContactVelocity>(&observed);
-  return velocity != nullptr ? *velocity : ContactVelocityAt(scene, std::get<ObservedRates>(observed).rates_rad_s);
+  return velocity != nullptr ? *velocity : ContactVelocityAt(scene, std::get<ObservedRates>(observed).values);
 }
 
 }  // namespace

@@ -23,10 +23,17 @@ struct Mover {
     body.velocity_n_m_s = rates[1];
     body.rate_rad_s = rates[2];
   }
-  void operator()(BodyPair& pair) const {
-    auto& bodies = std::get<PlanarPair>(pair.bodies);
-    Mover{rates.subspan(0, 3)}(bodies.body_1);
-    Mover{rates.subspan(3)}(bodies.body_2);
+  void operator()(SpatialBody& body) const {
+    body.linear_m_s.assign(rates.begin(), rates.begin() + 3);
+    body.angular_rad_s.assign(rates.begin() + 3, rates.end());
+  }
+  void operator()(BodyPair& pair) const { std::visit(*this, pair.bodies); }
+  template <typename Bodies>
+  requires requires(Bodies& bodies) { bodies.body_1; }
+  void operator()(Bodies& bodies) const {
+    const size_t half = rates.size() / 2;
+    Mover{rates.first(half)}(bodies.body_1);
+    Mover{rates.subspan(half)}(bodies.body_2);
   }
   template <typename Other>
   void operator()(Other& /*system*/) const {

@@ -9,9 +9,8 @@
 
 namespace ricochet {
 
-// The velocity is relative to the surface. The rates are those of a pendulum, of the links of a linkage, of a
-// mechanism, or of bodies in a plane, which have their linear velocity before their angular one: all that the system
-// has, in the order in which an outcome lists them. Other systems have no such rates.
+// The velocity is relative to the surface. The rates are all velocities of the system, in the order of
+// SystemVelocityPaths; a contact alone has none.
 ContactVelocity ContactVelocityAt(Scene scene, absl::Span<const double> rates);
 
 }  // namespace ricochet

@@ -122,7 +122,7 @@ void CheckObserved(const ContactVelocity& velocity, SizeCheck& check) {
   check.Entries("contact_velocity.tangential_m_s", velocity.tangential_m_s.size(), &Limits::max_list_numbers);
 }
 void CheckObserved(const ObservedRates& rates, SizeCheck& check) {
-  check.Entries("rates.rates_rad_s", rates.rates_rad_s.size(), &Limits::max_links);
+  check.Entries("rates.values", rates.values.size(), &Limits::max_links);
 }
 
 void CheckColumns(const AuditColumns& columns, SizeCheck& check) {
@@ -130,9 +130,9 @@ void CheckColumns(const AuditColumns& columns, SizeCheck& check) {
     check.Entries("columns." + field, values.size(), &Limits::max_audit_rows);
   };
   for (const NamedAuditColumn& column : kAuditColumns) rows(column.name, columns.*column.values);
-  check.Entries("columns.rates_after", columns.rates_after_rad_s.size(), &Limits::max_links);
-  for (size_t i = 0; i < columns.rates_after_rad_s.size(); ++i) {
-    rows(absl::StrCat("rates_after[", i, "].rates_rad_s"), columns.rates_after_rad_s[i]);
+  check.Entries("columns.rates_after", columns.rates_after.size(), &Limits::max_links);
+  for (size_t i = 0; i < columns.rates_after.size(); ++i) {
+    rows(absl::StrCat("rates_after[", i, "].values"), columns.rates_after[i]);
   }
 }
 

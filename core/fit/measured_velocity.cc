@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/answer/derivative_paths.h"
 #include "core/contact/moved_contact.h"
 #include "core/numerics/elementary.h"
+#include "core/scene/system_velocities.h"
 
 namespace ricochet::fit {
 namespace {
@@ -50,8 +50,7 @@ std::optional<MeasuredVelocity> VelocityOfContact(const Problem& problem, size_t
 
 // The contact's velocity is linear in the rates, so that each sigma changes it by what its rate does.
 std::optional<MeasuredVelocity> VelocityByRates(const Problem& problem, size_t row, const Scene& scene) {
-  if (TangentialDirections(scene.system) == 2 && !std::holds_alternative<Mechanism>(scene.system)) return std::nullopt;
-  const std::vector<const Number*> numbers = MeasuredAtAll(problem, row, SystemVelocityPaths(scene));
+  const std::vector<const Number*> numbers = MeasuredAtAll(problem, row, SystemVelocityPaths(scene.system));
   if (numbers.empty()) return std::nullopt;
   std::vector<double> rates;
   for (const Number* const number : numbers) rates.push_back(number->value);

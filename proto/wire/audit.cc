@@ -70,13 +70,13 @@ struct Map<AuditSummary> : Between<AuditSummary, v1::AuditSummary> {
 // A column of rates is a message of its own, as a list of lists needs one.
 struct RatesEntry {
   static void Write(const AuditColumns& columns, v1::AuditColumns& proto) {
-    for (const std::vector<double>& rates : columns.rates_after_rad_s) {
-      ToProto(rates, *proto.add_rates_after()->mutable_rates_rad_s());
+    for (const std::vector<double>& rates : columns.rates_after) {
+      ToProto(rates, *proto.add_rates_after()->mutable_values());
     }
   }
   static void Read(const v1::AuditColumns& proto, AuditColumns& columns) {
     for (const v1::RateColumn& column : proto.rates_after()) {
-      FromProto(column.rates_rad_s(), columns.rates_after_rad_s.emplace_back());
+      FromProto(column.values(), columns.rates_after.emplace_back());
     }
   }
 };
@@ -91,7 +91,7 @@ struct Map<AuditColumns> : Between<AuditColumns, v1::AuditColumns> {
 
 template <>
 struct Map<ObservedRates> : Between<ObservedRates, v1::ObservedRates> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(rates_rad_s));
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(values));
 };
 
 template <>

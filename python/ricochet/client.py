@@ -268,7 +268,7 @@ class Client:
 
     def audit(
         self, scene: SceneLike, *, contact_velocity: Mapping[str, Any] | None = None,
-        rates_rad_s: ArrayLike | None = None, velocity_uncertainty_m_s: float = 0.0,
+        rates_after: ArrayLike | None = None, velocity_uncertainty_m_s: float = 0.0,
     ) -> Record:
         """Computes what an observed impact implies, and which limits it breaks.
 
@@ -276,7 +276,9 @@ class Client:
             scene: the contact and its state before the impact.
             contact_velocity: observed velocity of the contact after the impact, relative to the surface, m/s:
                 ``{"tangential_m_s": 0.1, "normal_m_s": 0.4}``.
-            rates_rad_s: in its place, the angular velocities of a pendulum or a linkage after the impact, rad/s.
+            rates_after: in its place, all velocities of the system after the impact in the order in which an outcome
+                lists them: the rate of a pendulum, those of links or coordinates, or of each body its linear velocity,
+                then its angular one.
             velocity_uncertainty_m_s: uncertainty of each component of the contact velocity, m/s.
 
         Returns:
@@ -289,8 +291,8 @@ class Client:
         arguments: dict[str, Any] = {"velocity_uncertainty_m_s": velocity_uncertainty_m_s}
         if contact_velocity is not None:
             arguments["contact_velocity"] = contact_velocity
-        if rates_rad_s is not None:
-            arguments["rates"] = {"rates_rad_s": np.atleast_1d(values.column(rates_rad_s, "rates_rad_s"))}
+        if rates_after is not None:
+            arguments["rates"] = {"values": np.atleast_1d(values.column(rates_after, "rates_after"))}
         return self._solver.audit(scene, arguments)
 
     def audit_batch(self, scene: SceneLike, columns: Mapping[str, Any]) -> Table:
@@ -299,8 +301,8 @@ class Client:
         Args:
             scene: the contact; its velocity is used for rows that state none.
             columns: arrays with the names of ricochet.v1.AuditColumns, such as ``tangential_after_m_s`` and
-                ``normal_after_m_s``, m/s, all equally long or single numbers; ``rates_after``, rad/s, is a list with an
-                array for each link. A pandas frame will do.
+                ``normal_after_m_s``, m/s, all equally long or single numbers; ``rates_after`` is a list with an array for
+                each velocity of the system, in the order of ``audit``. A pandas frame will do.
 
         Returns:
             A table with every number of ricochet.v1.AuditReport; ``limits.sharp.verdict`` and its like are codes.
@@ -320,7 +322,7 @@ class Client:
             part: dict[str, Any] = {
                 name: _part(column, start, start + most) for name, column in arrays.items() if rows}
             if "rates_after" in part:
-                part["rates_after"] = [{"rates_rad_s": link} for link in np.atleast_2d(part["rates_after"])]
+                part["rates_after"] = [{"values": rate} for rate in np.atleast_2d(part["rates_after"])]
             answer = self._solver.audit_batch(scene, {"columns": part})
             if len(answer.reports) != min(most, rows - start):
                 raise RicochetError(f"the server answers {len(answer.reports)} rows of an audit", code="DATA_LOSS")

@@ -62,7 +62,7 @@ bool TakesTime(const SolveRequest& request) {
 size_t Rows(const AuditColumns& columns) {
   size_t rows = 0;
   for (const NamedAuditColumn& column : kAuditColumns) rows = std::max(rows, (columns.*column.values).size());
-  for (const std::vector<double>& column : columns.rates_after_rad_s) rows = std::max(rows, column.size());
+  for (const std::vector<double>& column : columns.rates_after) rows = std::max(rows, column.size());
   return rows;
 }
 

@@ -476,6 +476,21 @@ TEST_P(SolverContract, AuditFindsKanesParadoxInRates) {
   EXPECT_EQ(report[AuditLimit::kCone].verdict, Verdict::kKept);
 }
 
+// All velocities of the system after an impact, as an audit takes them.
+ObservedRates RatesOf(const Outcome& outcome) {
+  ObservedRates rates;
+  const auto add = [&rates](const Components& list) {
+    rates.values.insert(rates.values.end(), list.begin(), list.end());
+  };
+  add(outcome.rates_after_rad_s);
+  add(outcome.rates_after);
+  for (const BodyVelocity& body : outcome.bodies_after) {
+    add(body.linear_m_s);
+    add(body.angular_rad_s);
+  }
+  return rates;
+}
+
 TEST_P(SolverContract, AuditOfAnAnswerGivesItsCoefficientBack) {
   for (const System& system : Systems()) {
     const Scene scene = With(system);
@@ -488,6 +503,17 @@ TEST_P(SolverContract, AuditOfAnAnswerGivesItsCoefficientBack) {
     EXPECT_NEAR(audit->report.energetic, 0.5, 1e-7) << "system " << system.index();
     EXPECT_NEAR(audit->report.normal_impulse, solved->outcome.impulse.normal_total_n_s, 1e-7);
     EXPECT_NEAR(audit->report.energy_change, solved->outcome.energy_change_j, 1e-7);
+    const ObservedRates rates = RatesOf(solved->outcome);
+    if (rates.values.empty()) continue;  // A contact alone.
+    const auto by_rates = solver().Audit({.scene = scene, .observed = rates, .velocity_uncertainty_m_s = 1e-8});
+    ASSERT_TRUE(by_rates.ok()) << by_rates.status();
+    EXPECT_NEAR(by_rates->report.energetic, 0.5, 1e-7) << "system " << system.index();
+    EXPECT_NEAR(by_rates->report.normal_impulse, audit->report.normal_impulse, 1e-12) << "system " << system.index();
+    AuditBatchRequest batch = {.scene = scene, .columns = {}};
+    for (const double rate : rates.values) batch.columns.rates_after.push_back({rate});
+    const auto row = solver().AuditBatch(batch);
+    ASSERT_TRUE(row.ok()) << row.status();
+    EXPECT_EQ(row->reports[0].normal_impulse, by_rates->report.normal_impulse) << "system " << system.index();
   }
 }
 
@@ -516,7 +542,7 @@ TEST_P(SolverContract, AuditReportsEveryViolation) {
                           Violation{"velocity_uncertainty_m_s", "= -1: must be finite and >= 0"}));
   request = {.scene = PaperScene(), .observed = ObservedRates{{1.0, 2.0}}};
   EXPECT_THAT(ViolationsOf(solver().Audit(request).status()),
-              ElementsAre(Violation{"rates.rates_rad_s", "has 2 entries: must have 1"}));
+              ElementsAre(Violation{"rates.values", "has 2 entries: must have 1"}));
   request = {.scene = With(ContactInSpace()), .observed = ContactVelocity{{std::nan("")}, 1.0}};
   EXPECT_THAT(ViolationsOf(solver().Audit(request).status()),
               ElementsAre(Violation{"contact_velocity.tangential_m_s", "has 1 entry: must have 2"},
@@ -576,16 +602,16 @@ TEST_P(SolverContract, AuditOfABatchByRatesIsThatOfEachRowsRates) {
   AuditBatchRequest request = {.scene = With(Chain()), .columns = {}};
   const size_t links = std::get<Linkage>(request.scene.system).links.size();
   const std::vector<double> rates = {0.5, -0.25, 1e308, std::nan("")};
-  for (size_t link = 0; link < links; ++link) request.columns.rates_after_rad_s.push_back({0.125});
-  request.columns.rates_after_rad_s.back() = rates;
+  for (size_t link = 0; link < links; ++link) request.columns.rates_after.push_back({0.125});
+  request.columns.rates_after.back() = rates;
   request.scene.friction.kinetic_coefficient = 0.25;
   const auto batch = solver().AuditBatch(request);
   ASSERT_TRUE(batch.ok()) << batch.status();
   ASSERT_EQ(batch->reports.size(), rates.size());
   for (const size_t row : {0u, 1u}) {
     ObservedRates observed;
-    for (size_t link = 0; link < links; ++link) observed.rates_rad_s.push_back(0.125);
-    observed.rates_rad_s.back() = rates[row];
+    for (size_t link = 0; link < links; ++link) observed.values.push_back(0.125);
+    observed.values.back() = rates[row];
     const auto one = solver().Audit({.scene = request.scene, .observed = observed});
     ASSERT_TRUE(one.ok()) << one.status();
     EXPECT_EQ(batch->reports[row], one->report) << "row " << row;
@@ -595,12 +621,12 @@ TEST_P(SolverContract, AuditOfABatchByRatesIsThatOfEachRowsRates) {
 
 TEST_P(SolverContract, AuditOfABatchByThePendulumsRateIsThatOfEachRow) {
   AuditBatchRequest request = {.scene = PaperScene(), .columns = {}};
-  request.columns.rates_after_rad_s = {{0.125, 0.5, 0.75, 1.5}};
+  request.columns.rates_after = {{0.125, 0.5, 0.75, 1.5}};
   const auto batch = solver().AuditBatch(request);
   ASSERT_TRUE(batch.ok()) << batch.status();
   for (size_t row = 0; row < 4; ++row) {
-    const auto one = solver().Audit(
-        {.scene = request.scene, .observed = ObservedRates{{request.columns.rates_after_rad_s[0][row]}}});
+    const auto one =
+        solver().Audit({.scene = request.scene, .observed = ObservedRates{{request.columns.rates_after[0][row]}}});
     ASSERT_TRUE(one.ok()) << one.status();
     EXPECT_EQ(batch->reports[row], one->report) << "row " << row;
   }
@@ -608,21 +634,20 @@ TEST_P(SolverContract, AuditOfABatchByThePendulumsRateIsThatOfEachRow) {
 
 TEST_P(SolverContract, AuditOfABatchRefusesRatesOfAnotherSystemOrBesideVelocities) {
   AuditBatchRequest request = {.scene = With(Contact()), .columns = {}};
-  request.columns.rates_after_rad_s = {{0.5}};
-  EXPECT_THAT(
-      ViolationsOf(solver().AuditBatch(request).status()),
-      ElementsAre(Violation{"columns.rates_after",
-                            "is set: must not be but for a pendulum or a linkage, give the contact's velocity"}));
+  request.columns.rates_after = {{0.5}};
+  EXPECT_THAT(ViolationsOf(solver().AuditBatch(request).status()),
+              ElementsAre(Violation{"columns.rates_after",
+                                    "is set: must not be for a contact alone, give the contact's velocity"}));
   request = {.scene = PaperScene(), .columns = {}};
-  request.columns.rates_after_rad_s = {{0.5, 0.25}, {}};
+  request.columns.rates_after = {{0.5, 0.25}, {}};
   request.columns.normal_after_m_s = {0.5};
   request.columns.friction = {0.5, 0.5, 0.5};
-  EXPECT_THAT(ViolationsOf(solver().AuditBatch(request).status()),
-              ElementsAre(Violation{"columns.rates_after", "has 2 entries: must have 1"},
-                          Violation{"columns.normal_after_m_s", "is set: must not be beside rates_after"},
-                          Violation{"columns.rates_after[0].rates_rad_s", "has 2 values: must have 1 or 3"},
-                          Violation{"columns.rates_after[1].rates_rad_s",
-                                    "is not set: must have a value a row, or one for all"}));
+  EXPECT_THAT(
+      ViolationsOf(solver().AuditBatch(request).status()),
+      ElementsAre(Violation{"columns.rates_after", "has 2 entries: must have 1"},
+                  Violation{"columns.normal_after_m_s", "is set: must not be beside rates_after"},
+                  Violation{"columns.rates_after[0].values", "has 2 values: must have 1 or 3"},
+                  Violation{"columns.rates_after[1].values", "is not set: must have a value a row, or one for all"}));
 }
 
 TEST_P(SolverContract, AuditOfABatchTakesFromTheSceneWhatNoColumnStates) {

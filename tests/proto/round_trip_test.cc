@@ -211,7 +211,7 @@ TEST(AuditTest, RequestSurvivesWithEachKindOfObservation) {
   EXPECT_EQ(ThroughWire(request), request);
   auto& rates = request.observed.emplace<ObservedRates>();
   EXPECT_EQ(ThroughWire(request), request);
-  rates.rates_rad_s.assign({0.5, -0.25});
+  rates.values.assign({0.5, -0.25});
   EXPECT_EQ(ThroughWire(request), request);
 }
 

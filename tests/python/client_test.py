@@ -107,7 +107,7 @@ class Scenes(unittest.TestCase):
         self.assertEqual(ricochet.solve(scene), ricochet.solve(PENDULUM))
         self.assertEqual(ricochet.plan(scene), ricochet.plan(PENDULUM))
         self.assertEqual(ricochet.bounds(scene, ranges={"mu": (0, 0.1)}), ricochet.bounds(PENDULUM, ranges={"mu": (0, 0.1)}))
-        self.assertEqual(ricochet.audit(scene, rates_rad_s=0.5), ricochet.audit(PENDULUM, rates_rad_s=0.5))
+        self.assertEqual(ricochet.audit(scene, rates_after=0.5), ricochet.audit(PENDULUM, rates_after=0.5))
         for call in (ricochet.solve_batch, ricochet.sweep):
             options = {"form": "table"} if call is ricochet.sweep else {}
             tables = [call(one, {"mu": [0, 0.1]}, "newton", **options) for one in (scene, PENDULUM)]

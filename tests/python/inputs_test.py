@@ -63,7 +63,7 @@ class Numbers(Case):
                 "pendulum.b_m": lambda v: ricochet.solve({**PENDULUM, "pendulum": {**PENDULUM["pendulum"], "b_m": v}}),
                 "tolerance": lambda v: ricochet.solve(PENDULUM, tolerance=v),
                 "velocity_uncertainty_m_s": lambda v: ricochet.audit(
-                    PENDULUM, rates_rad_s=1, velocity_uncertainty_m_s=v),
+                    PENDULUM, rates_after=1, velocity_uncertainty_m_s=v),
                 f"{MU}.start": lambda v: ricochet.sweep(PENDULUM, {MU: ricochet.Linspace(v, 1, 2)}, NEWTON),
                 "history": lambda v: ricochet.solve(PENDULUM, history=v),
             }
@@ -83,7 +83,7 @@ class Numbers(Case):
                     lambda v: ricochet.bounds(PENDULUM, ranges={MU: (0.1, v)}),
                 ],
                 "normal_after_m_s[1]": [lambda v: ricochet.audit_batch(PENDULUM, {"normal_after_m_s": [0.1, v]})],
-                "rates_rad_s[1]": [lambda v: ricochet.audit(PENDULUM, rates_rad_s=[0.1, v])],
+                "rates_after[1]": [lambda v: ricochet.audit(PENDULUM, rates_after=[0.1, v])],
                 "pendulum.a_m[1]": [lambda v: ricochet.solve_batch(PENDULUM, {"a": (0.1, v)}, NEWTON)],
             }
             for field, calls in places.items():
@@ -139,7 +139,7 @@ class Numbers(Case):
             self.assertIn(f"{system}.{field}{words}", str(raised.exception))
         self.refused(lambda: ricochet.audit(PENDULUM, contact_velocity={"normal_m_s": np.ma.masked}),
                      "contact_velocity.normal_m_s", "= masked")
-        self.refused(lambda: ricochet.audit(PENDULUM, rates_rad_s={0.1, 0.2}), "rates_rad_s", "must be a number")
+        self.refused(lambda: ricochet.audit(PENDULUM, rates_after={0.1, 0.2}), "rates_after", "must be a number")
 
     def test_an_axis_without_values_is_refused_by_its_rule(self):
         lin, log = ricochet.Linspace, ricochet.Logspace

@@ -224,7 +224,7 @@ class BoundsAndAudits(unittest.TestCase):
                 client.audit_batch(PENDULUM, {"rates_after": [0.1, 0.2]})
 
     def test_an_observation_that_doubles_the_rate_breaks_the_limits(self):
-        answer = ricochet.audit(PENDULUM, rates_rad_s=2.0)
+        answer = ricochet.audit(PENDULUM, rates_after=2.0)
         self.assertFalse(answer.report.admissible)
         self.assertAlmostEqual(answer.report.coefficients.newton, 2, 14)
         # E+ - E- = (2^2 - 1^2)/2 J at 1 kg m^2.

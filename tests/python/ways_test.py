@@ -45,7 +45,7 @@ CALLS = {
         scene, derivatives={"of": ["sharp.newton.upper"], "by": ["friction.kinetic_coefficient"]}),
     "bounds, wrong ranges": lambda client, scene: client.bounds(scene, ranges={"mu": (0.2, 0.1), "omega": (0, 1)}),
     "audit": lambda client, scene: client.audit(scene, contact_velocity={"tangential_m_s": 0.1, "normal_m_s": 0.2}),
-    "audit, rates": lambda client, scene: client.audit(scene, rates_rad_s=[0.1, 0.2]),
+    "audit, rates": lambda client, scene: client.audit(scene, rates_after=[0.1, 0.2]),
     "audit_batch": lambda client, scene: client.audit_batch(scene, {"normal_after_m_s": [0.1, -3, np.nan]}),
     "solve_batch": lambda client, scene: client.solve_batch(scene, {"mu": MU}, ["newton", "energy_change_j"]),
     "solve_batch, wrong names": lambda client, scene: client.solve_batch(scene, {"nu": MU}, ["newtn"]),

@@ -20,17 +20,7 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr char kRates[] = "rates_after_rad_s";
-
-std::vector<std::string> KnownNames() {
-  std::vector<std::string> known;
-  for (const NamedAuditColumn& column : kAuditColumns) known.emplace_back(column.name);
-  known.push_back(absl::StrCat(kRates, "[0]"));
-  return known;
-}
-
-absl::Status UnknownColumn(const std::string& cell, const std::string& name) {
-  const std::vector<std::string> known = KnownNames();
+absl::Status UnknownColumn(const std::string& cell, const std::string& name, const std::vector<std::string>& known) {
   return absl::InvalidArgumentError(absl::StrCat(name, " has the column \"", absl::CEscape(cell), "\": must be one of ",
                                                  absl::StrJoin(known, ", "), DidYouMean(cell, known),
                                                  "; --skip-column leaves a column out"));
@@ -45,59 +35,64 @@ std::string WhyWrong(absl::string_view name, const std::vector<double>& column, 
 
 }  // namespace
 
-size_t AuditTable::LinkCount(const Places& places) {
-  return static_cast<size_t>(std::count_if(places.begin(), places.end(), [](const std::optional<Place>& place) {
-    return place.has_value() && place->link.has_value();
-  }));
+std::vector<std::string> AuditTable::KnownNames() const {
+  std::vector<std::string> known;
+  for (const NamedAuditColumn& column : kAuditColumns) known.emplace_back(column.name);
+  known.insert(known.end(), velocities_.begin(), velocities_.end());
+  return known;
 }
 
-std::optional<AuditTable::Place> AuditTable::PlaceOf(const std::string& cell) {
+std::optional<AuditTable::Place> AuditTable::PlaceOf(const std::string& cell) const {
   for (const NamedAuditColumn& known : kAuditColumns) {
-    if (cell == known.name) return Place{.values = known.values, .link = {}};
+    if (cell == known.name) return Place{.values = known.values, .velocity = {}};
   }
-  absl::string_view index = cell;
-  uint32_t link = 0;
-  if (absl::ConsumePrefix(&index, absl::StrCat(kRates, "[")) && absl::ConsumeSuffix(&index, "]") &&
-      absl::SimpleAtoi(index, &link)) {
-    return Place{.values = nullptr, .link = link};
-  }
-  return std::nullopt;
+  const auto found = std::find(velocities_.begin(), velocities_.end(), cell);
+  if (found == velocities_.end()) return std::nullopt;
+  return Place{.values = nullptr, .velocity = static_cast<size_t>(found - velocities_.begin())};
 }
 
-absl::StatusOr<AuditTable::Places> AuditTable::PlacesOf(const CsvReader& reader, const std::string& name) {
-  Places places;
-  for (size_t i = 0; i < reader.header().size(); ++i) {
-    const std::string& cell = reader.header()[i];
-    if (reader.IsSkipped(i)) {
-      places.emplace_back();
+absl::Status AuditTable::SetPlaces(const std::string& name) {
+  const std::vector<std::string> known = KnownNames();
+  for (size_t i = 0; i < reader_.header().size(); ++i) {
+    const std::string& cell = reader_.header()[i];
+    if (reader_.IsSkipped(i)) {
+      places_.emplace_back();
       continue;
     }
-    const absl::StatusOr<std::string> full = FullName(cell, KnownNames(), absl::StrCat(name, " has the column"));
+    const absl::StatusOr<std::string> full = FullName(cell, known, absl::StrCat(name, " has the column"));
     if (!full.ok()) return full.status();
     const std::optional<Place> place = PlaceOf(*full);
-    if (!place.has_value()) return UnknownColumn(cell, name);
-    if (std::count(places.begin(), places.end(), place) > 0) {
+    if (!place.has_value()) return UnknownColumn(cell, name, known);
+    if (std::count(places_.begin(), places_.end(), place) > 0) {
       return absl::InvalidArgumentError(absl::StrCat(name, " has the column ", cell, " twice"));
     }
-    places.push_back(place);
+    places_.push_back(place);
   }
-  const size_t links = LinkCount(places);
-  for (const std::optional<Place>& place : places) {
-    if (!place.has_value() || !place->link.has_value() || *place->link < links) continue;
-    return absl::InvalidArgumentError(
-        absl::StrCat(name, " has the column ", kRates, "[", *place->link, "] but not one for each link before it"));
+  const auto has = [this](size_t velocity) {
+    return std::count(places_.begin(), places_.end(), Place{.values = nullptr, .velocity = velocity}) > 0;
+  };
+  std::vector<std::string> missing;
+  for (size_t k = 0; k < velocities_.size(); ++k) {
+    if (!has(k)) missing.push_back(velocities_[k]);
   }
-  return places;
+  if (missing.size() == velocities_.size()) {
+    velocities_.clear();
+  } else if (!missing.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(name, " has some velocities of the system after the impact but not ",
+                                                   absl::StrJoin(missing, ", "), ": must have all of them"));
+  }
+  return absl::OkStatus();
 }
 
 absl::StatusOr<AuditTable> AuditTable::Open(std::istream& stream, const std::string& name,
+                                            std::vector<std::string> velocities,
                                             const std::vector<std::string>& skipped) {
   absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, name);
   if (!reader.ok()) return reader.status();
   if (absl::Status status = reader->Skip(skipped); !status.ok()) return status;
-  absl::StatusOr<Places> places = PlacesOf(*reader, name);
-  if (!places.ok()) return places.status();
-  return AuditTable(*std::move(reader), *std::move(places));
+  AuditTable table(*std::move(reader), std::move(velocities));
+  if (absl::Status status = table.SetPlaces(name); !status.ok()) return status;
+  return table;
 }
 
 bool AuditTable::has_uncertainty() const {
@@ -110,12 +105,12 @@ absl::StatusOr<AuditRows> AuditTable::Next(size_t most) {
   absl::StatusOr<CsvTable> read = reader_.Next(most);
   if (!read.ok()) return read.status();
   CsvTable& table = *read;
-  AuditRows rows{.columns = {}, .lines = std::move(table.lines), .bad_cells = {}};
-  rows.columns.rates_after_rad_s.resize(LinkCount(places_));
+  AuditRows rows{.columns = {}, .lines = std::move(table.lines), .bad_cells = {}, .velocities = velocities_};
+  rows.columns.rates_after.resize(velocities_.size());
   for (size_t i = 0; i < places_.size(); ++i) {
     const std::optional<Place>& place = places_[i];
     if (!place.has_value()) continue;
-    (place->link.has_value() ? rows.columns.rates_after_rad_s[*place->link] : rows.columns.*place->values) =
+    (place->velocity.has_value() ? rows.columns.rates_after[*place->velocity] : rows.columns.*place->values) =
         std::move(table.columns[i]);
   }
   rows.bad_cells.resize(rows.lines.size());
@@ -133,9 +128,9 @@ std::string WhyInvalid(const AuditRows& rows, size_t row) {
     std::string reason = WhyWrong(known.name, columns.*known.values, row, least);
     if (!reason.empty()) return reason;
   }
-  for (size_t i = 0; i < columns.rates_after_rad_s.size(); ++i) {
-    std::string reason = WhyWrong(absl::StrCat(kRates, "[", i, "]"), columns.rates_after_rad_s[i], row,
-                                  std::numeric_limits<double>::lowest());
+  for (size_t i = 0; i < columns.rates_after.size(); ++i) {
+    std::string reason =
+        WhyWrong(rows.velocities[i], columns.rates_after[i], row, std::numeric_limits<double>::lowest());
     if (!reason.empty()) return reason;
   }
   return "the contact cannot have this velocity before the impact, or a number exceeds the largest double";

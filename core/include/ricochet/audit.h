@@ -17,11 +17,12 @@
 
 namespace ricochet {
 
-// The observed state after the impact is either the velocity of the contact relative to the surface, or the rates of a
-// pendulum (one) or of a linkage (one for each link). std::monostate means that the request stated neither, which is a
-// violation.
+// The observed state after the impact is either the velocity of the contact relative to the surface, or all velocities
+// of the system in the order in which an outcome lists them: the rate of a pendulum, those of links or coordinates, or
+// for each body its linear velocity, then its angular one. std::monostate means that the request stated neither, which
+// is a violation.
 struct ObservedRates {
-  Components rates_rad_s = {};
+  Components values = {};
   friend bool operator==(const ObservedRates&, const ObservedRates&) = default;
 };
 using Observed = std::variant<std::monostate, ContactVelocity, ObservedRates>;
@@ -32,7 +33,7 @@ inline constexpr int64_t kMostAuditRows = 8192;
 // AuditColumns holds many impacts of one scene, one row for each impact. A column has one value for each row, or a
 // single value that holds for all rows; the longest column determines the number of rows. Systems in space, and only
 // they, have the columns of the second tangential direction. Velocities are those of the contact relative to the
-// surface; a pendulum or a linkage may state its rates after the impact in place of the velocities after it.
+// surface; the velocities of the system after the impact may be stated in place of that of the contact.
 struct AuditColumns {
   std::vector<double> tangential_m_s = {};  // Velocity before the impact; an empty column leaves that of the scene.
   std::vector<double> tangential_2_m_s = {};
@@ -41,8 +42,8 @@ struct AuditColumns {
   std::vector<double> tangential_2_after_m_s = {};
   std::vector<double> normal_after_m_s = {};
   std::vector<double> friction = {};  // Both coefficients of friction; empty means the scene's, at each approach speed.
-  std::vector<double> velocity_uncertainty_m_s = {};        // Empty means 0.
-  std::vector<std::vector<double>> rates_after_rad_s = {};  // One column for each link; a pendulum has one.
+  std::vector<double> velocity_uncertainty_m_s = {};  // Empty means 0.
+  std::vector<std::vector<double>> rates_after = {};  // One column for each velocity, in the order of ObservedRates.
   friend bool operator==(const AuditColumns&, const AuditColumns&) = default;
 };
 

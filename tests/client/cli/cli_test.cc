@@ -373,14 +373,14 @@ TEST_F(Cli, RefusesATableWithoutAKnownHeaderAndAnAuditOfNothing) {
               HasSubstr("separates its columns by semicolons: must use commas"));
   EXPECT_THAT(Run(with({"--data", "-"}), "").err, HasSubstr("has no header"));
   EXPECT_THAT(Run(with({"--data", "-"}), "friction,friction\n").err, HasSubstr("friction twice"));
-  EXPECT_THAT(Run(with({"--data", "-"}), "rates_after_rad_s[0],rates_after_rad_s[00]\n").err, HasSubstr("twice"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "rates_after_rad_s[0],rates_after_rad_s[0]\n").err, HasSubstr("twice"));
   EXPECT_THAT(Run(with({"--data", "-"}), "rates_after_rad_s[1],rates_after_rad_s[2]\n").err,
-              HasSubstr("rates_after_rad_s[2] but not one for each link before it"));
+              HasSubstr("has the column \"rates_after_rad_s[2]\": must be one of"));
   EXPECT_THAT(Run(with({"--data", "-"}), "rates_after_rad_s[0]\n1\n").err,
-              HasSubstr("columns.rates_after has 1 entry: must have 2"));
+              HasSubstr("has some velocities of the system after the impact but not rates_after_rad_s[1]: must have"));
   EXPECT_THAT(Run(with({"--data", "-"}), "normal_after_m_s\n1\n").err,
               HasSubstr("columns.tangential_after_m_s is not set"));
-  EXPECT_THAT(Run(with({"--observed-rate", "1"})).err, HasSubstr("rates.rates_rad_s has 1 entry: must have 2"));
+  EXPECT_THAT(Run(with({"--observed-rate", "1"})).err, HasSubstr("rates.values has 1 entry: must have 2"));
   EXPECT_THAT(Run(with({"--observed-velocity", "1,x"})).err, HasSubstr("--observed-velocity = x"));
 }
 

@@ -97,7 +97,7 @@ const std::vector<Case>& Cases() {
          return solver.Audit({.scene = ChainScene(n), .observed = ObservedRates{Components(n, 0.0)}}).status();
        },
        2},
-      {"RatesOfAnAudit", &Limits::max_links, 3, "rates.rates_rad_s",
+      {"RatesOfAnAudit", &Limits::max_links, 3, "rates.values",
        [](const Solver& solver, size_t n) {
          return solver
              .Audit({.scene = ChainScene(std::min<size_t>(n, 3)), .observed = ObservedRates{Components(n, 0.0)}})
@@ -179,7 +179,7 @@ const std::vector<Case>& Cases() {
        [](const Solver& solver, size_t n) {
          AuditBatchRequest request = {.scene = ChainScene(1)};
          request.columns.friction.assign(n, 0.1);
-         request.columns.rates_after_rad_s = {{0.0}};
+         request.columns.rates_after = {{0.0}};
          return solver.AuditBatch(request).status();
        }},
       {"WorkOfAFit", &Limits::max_fit_work, 192, "measured",
@@ -211,10 +211,10 @@ const std::vector<Case>& Cases() {
          }
          return solver.MultiContact(request).status();
        }},
-      {"RatesOfABatch", &Limits::max_audit_rows, 7, "columns.rates_after[0].rates_rad_s",
+      {"RatesOfABatch", &Limits::max_audit_rows, 7, "columns.rates_after[0].values",
        [](const Solver& solver, size_t n) {
          AuditBatchRequest request = {.scene = ChainScene(1)};
-         request.columns.rates_after_rad_s = {std::vector<double>(n, 0.0)};
+         request.columns.rates_after = {std::vector<double>(n, 0.0)};
          return solver.AuditBatch(request).status();
        }},
   };

@@ -46,7 +46,7 @@ TEST(RequestCost, EachCauseMakesACallDear) {
   arm.system = Mechanism{.rates = std::vector<double>(64)};
   EXPECT_EQ(CostOf(SolveRequest{.scene = arm}).cause, CostCause::kLinks);
   EXPECT_EQ(CostOf(AuditRequest{.scene = Chain(128), .observed = {}}).cause, CostCause::kLinks);
-  EXPECT_EQ(CostOf(AuditBatchRequest{.scene = {}, .columns = {.rates_after_rad_s = {std::vector<double>(8192)}}}).cause,
+  EXPECT_EQ(CostOf(AuditBatchRequest{.scene = {}, .columns = {.rates_after = {std::vector<double>(8192)}}}).cause,
             CostCause::kRows);                                                                // 130 ms
   EXPECT_EQ(CostOf(MultiContactRequest{.scene = SpatialBox()}).cause, CostCause::kContacts);  // 10 ms
   const auto by = [](size_t numbers) {
