@@ -301,8 +301,8 @@ class Client:
         Args:
             scene: the contact; its velocity is used for rows that state none.
             columns: arrays with the names of ricochet.v1.AuditColumns, such as ``tangential_after_m_s`` and
-                ``normal_after_m_s``, m/s, all equally long or single numbers; ``rates_after`` is a list with an array for
-                each velocity of the system, in the order of ``audit``. A pandas frame will do.
+                ``normal_after_m_s``, m/s, all equally long or single numbers; ``rates_after`` is a list with an array
+                for each velocity of the system, in the order of ``audit``. A pandas frame will do.
 
         Returns:
             A table with every number of ricochet.v1.AuditReport; ``limits.sharp.verdict`` and its like are codes.
