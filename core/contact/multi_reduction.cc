@@ -152,7 +152,10 @@ MultiReduction ReduceMechanism(const Mechanism& mechanism, int directions) {
 }  // namespace
 
 Eigen::VectorXd MultiReduction::ContactVelocity(const Eigen::VectorXd& velocities) const {
-  return jacobian * velocities;
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const Eigen::VectorXd sum = jacobian * velocities;
+  const Eigen::VectorXd size = jacobian.cwiseAbs() * velocities.cwiseAbs();
+  return (sum.array().abs() <= kRounding * size.array()).select(0.0, sum);
 }
 
 Eigen::MatrixXd ContactDirections(const MultiContactPoint& contact) {

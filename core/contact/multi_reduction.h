@@ -26,7 +26,8 @@ struct MultiReduction {
   Eigen::VectorXd mobility;  // The diagonal of M^-1, or of W; 0 for a coordinate that is held.
   Eigen::VectorXd velocity;  // q' of the scene
 
-  // The contact velocity that goes with velocities of the system.
+  // The contact velocity that goes with velocities of the system: 0 where its terms cancel to rounding, so that a
+  // contact at rest does not approach.
   Eigen::VectorXd ContactVelocity(const Eigen::VectorXd& velocities) const;
 };
 

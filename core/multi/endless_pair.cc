@@ -75,7 +75,9 @@ std::optional<Eigen::Vector2d> RemainingImpulses(const Pair& pair) {
   }
   // Both normal velocities are proportional, and two impacts multiply them by e1 e2.
   const double factor = pair.e(0) * pair.e(1);
-  if (!pair.IsFrictionless() || factor == 1.0) return std::nullopt;
+  // Where next to no energy is lost, the rounding of W and of the velocities decides on the limit.
+  constexpr double kLeastLoss = 0x1p-40;
+  if (!pair.IsFrictionless() || !(1.0 - factor > kLeastLoss)) return std::nullopt;
   const double second = -pair.v(1);
   const double first = pair.e(1) * second * (-a(0, 1) / a(1, 1));
   return Eigen::Vector2d((1.0 + pair.e(0)) * first / a(0, 0), (1.0 + pair.e(1)) * second / a(1, 1)) / (1.0 - factor);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "absl/cleanup/cleanup.h"
 #include "core/multi/endless_pair.h"
 #include "core/multi/single_impact.h"
 
@@ -123,6 +124,10 @@ class Search {
   // Follows all sequences that go on from `state`, after an impact of contact `last` with the speed `approach`, with at
   // most `budget` impacts. Returns the impacts that it took.
   int64_t Follow(Attained state, int last, double approach, int64_t budget) {
+    const size_t branched = branched_.size();
+    const absl::Cleanup close = [&] {
+      for (size_t i = branched; i < branched_.size(); ++i) branched_[i].is_open = false;
+    };
     int64_t taken = 0;
     double before_last = approach;  // The speed of the impact before the last one.
     for (;;) {
@@ -159,7 +164,14 @@ class Search {
           std::stable_partition(next.begin(), next.end(), [&](int i) { return i > last || coupled_[Place(i, last)]; });
       if (others == next.begin() && !shares_) return taken;
       if (others != next.begin()) next.erase(others, next.end());
-      if (next.size() > 1 && !IsNew(state)) return taken;
+      if (next.size() > 1) {
+        const Met met = Meet(state, next);
+        if (met == Met::kOnTheWay) {
+          state.end = MultiContactEnd::kBudgetUsedUp;
+          Keep(std::move(state));
+        }
+        if (met != Met::kNever) return taken;
+      }
       if (shares_) LeaveOutBranches(budget - taken, state.events, next);
       for (size_t i = 0; i + 1 < next.size(); ++i) {
         const int64_t share = (budget - taken) / (shares_ ? static_cast<int64_t>(next.size() - i) : 1);
@@ -222,15 +234,23 @@ class Search {
     return true;
   }
 
-  // Remembers a state in which several contacts approach; false if such a state was met before. The last contact makes
-  // no difference, because it does not approach.
-  bool IsNew(const Attained& state) {
+  enum class Met { kNever, kElsewhere, kOnTheWay };
+
+  // Remembers a state in which the contacts `next` approach, and says whether such a state was met before, by another
+  // sequence or by this one. The last contact makes no difference, because it does not approach.
+  Met Meet(const Attained& state, const std::vector<int>& next) {
     // States that are apart by more than rounding may end further apart than their errors.
     const double rounding = 4.0 * kEpsilon * scale_;
-    const auto is_same = [&](const Attained& other) { return AreEqual(state, other, rounding); };
-    if (std::any_of(branched_.begin(), branched_.end(), is_same)) return false;
-    if (branched_.size() < kMostBranched) branched_.push_back(state);
-    return true;
+    const auto is_same = [&](const Branched& other) { return AreEqual(state, other.state, rounding); };
+    const auto found = std::find_if(branched_.begin(), branched_.end(), is_same);
+    if (found == branched_.end()) {
+      if (branched_.size() < kMostBranched) branched_.push_back({state});
+      return Met::kNever;
+    }
+    // A sequence that comes back to its own state goes on for ever, unless all speeds have fallen to rounding.
+    const bool moves =
+        std::any_of(next.begin(), next.end(), [&](int i) { return -state.v(problem_.N(i)) > kEndlessSpeed * scale_; });
+    return found->is_open && moves ? Met::kOnTheWay : Met::kElsewhere;
   }
 
   static bool IsEnd(const Attained& state) {
@@ -280,7 +300,12 @@ class Search {
   std::vector<bool> coupled_;
   bool ran_out_ = false;
   int depth_ = 0;  // Branches within branches. Those that share the budget are some ten at most.
-  std::vector<Attained> branched_;
+  // A state in which several contacts approach; open as long as the sequences that go on from it are followed.
+  struct Branched {
+    Attained state;
+    bool is_open = true;
+  };
+  std::vector<Branched> branched_;
   Orders orders_;
 };
 

@@ -25,7 +25,7 @@ namespace multi {
 namespace {
 
 constexpr char kSpringsName[] = "springs";
-// The width of a range that is rounding alone, over its scale.
+// A width or a difference below this part of its scale is rounding alone.
 constexpr double kNoWidth = 1e-11;
 constexpr double kPi = 3.141592653589793;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -148,6 +148,7 @@ class Answerer {
   }
 
   static void SetDivisor(ContactPair& pair) {
+    if (pair.cosine <= -1.0 + kEpsilon) pair.divisor = 1;
     if (!(pair.cosine >= 0.0 && pair.cosine < 1.0)) return;
     // cos(theta) = 1 - theta^2/2 + ..., so that this is m or next to it.
     const double near = std::min(kPi / std::sqrt(2.0 * (1.0 - pair.cosine)), 1e6);
@@ -364,7 +365,7 @@ class Answerer {
 
   // Names the two outcomes of `x` and `y` that differ most, and returns whether any two do.
   bool Compare(const std::vector<const AttainedOutcome*>& x, const std::vector<const AttainedOutcome*>& y) {
-    double most = 0.0;
+    double most = kNoWidth;
     const auto name = [](const AttainedOutcome& one) { return one.orders.empty() ? kSpringsName : one.orders.front(); };
     for (const AttainedOutcome* const one : x) {
       for (const AttainedOutcome* const other : y) {
@@ -378,7 +379,7 @@ class Answerer {
         answer_.outcome_2 = name(*other);
       }
     }
-    return most > 0.0;
+    return most > kNoWidth;
   }
 
   // True if two contacts give all energy back: as in a slot, an impact may then go on for ever.

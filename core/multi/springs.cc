@@ -437,7 +437,9 @@ class Motion {
       const ContactLaw& law = problem_.laws[At(i)];
       if (!IsClosed(i)) {
         gap_error_[At(i)] += roots_(problem_.N(i)) * result_.error * h * s;
-        if (state_.g[At(i)] > 0.0 || Normal(i) > 0.0) state_.g[At(i)] = std::max(flow_->gap(i).At(s), 0.0);
+        // A gap that is 0 opens if its first coefficient says so, though the velocity may still be 0.
+        const bool is_open = state_.g[At(i)] > 0.0 || Normal(i) > 0.0 || flow_->gap(i).Lead() <= kSeriesOrder;
+        if (is_open) state_.g[At(i)] = std::max(flow_->gap(i).At(s), 0.0);
         continue;
       }
       ContactWorks& works = result_.works[At(i)];

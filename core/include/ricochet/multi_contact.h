@@ -203,7 +203,7 @@ struct StiffnessJump {
 enum class MultiContactVerdict {
   kUnspecified = 0,               // Not decided: no two outcomes differ, but some could not be found.
   kSingle = 1,                    // Proved: only one outcome is possible.
-  kOrderMatters = 2,              // Two orders end with outcomes that differ by more than their errors.
+  kOrderMatters = 2,              // Two orders end apart by more than their errors and 1e-11 of an output's scale.
   kOrdersAgreeSpringsDiffer = 3,  // All orders end alike, but springs end differently.
   kOrdersAgree = 4,               // Neither was found to differ. This proves no uniqueness.
 };

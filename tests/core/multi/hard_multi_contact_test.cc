@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -146,6 +147,77 @@ TEST(HardMultiContactTest, AnElasticBallInASlotHasNoLimit) {
        {std::vector<MultiContactMethod>{}, {MultiContactMethod::kPossible}}) {
     EXPECT_EQ(verdict(1.0, methods), MultiContactVerdict::kUnspecified);
     EXPECT_EQ(verdict(0.5, methods), MultiContactVerdict::kSingle);  // Its limit is rest.
+  }
+}
+
+// A sequence that comes back to a state before goes on for ever: a ball in a slot one of whose walls is two contacts,
+// and a ball between three walls at 60 degrees.
+TEST(HardMultiContactTest, ASequenceThatComesBackIsNoOrderThatAgrees) {
+  MultiContactScene slot;
+  slot.system =
+      FreeBodies{{{.mass_kg = 1.0, .inertia_com_kg_m2 = {0.1}, .position_m = {0.0, 0.0}, .linear_m_s = {1.0, 0.3}}}};
+  for (const double side : {-1.0, 1.0, -1.0}) {
+    slot.contacts.push_back({.energetic = 1.0, .body = 1, .point_m = {0.5 * side, 0.0}, .normal = {-side, 0.0}});
+  }
+  slot.contacts.back().energetic = 0.0;
+  MultiContactScene walls;
+  walls.system = ContactMatrix{.w_per_kg = {1, 0,    0, 0, 0, 0,    0, 1, 0, -0.5, 0, -0.5, 0, 0,    1, 0,    0, 0,
+                                            0, -0.5, 0, 1, 0, -0.5, 0, 0, 0, 0,    1, 0,    0, -0.5, 0, -0.5, 0, 1},
+                               .velocity_m_s = {0, 1, 0, -0.25, 0, -0.75}};
+  walls.contacts = {{.energetic = 1.0}, {.energetic = 1.0}, {.energetic = 1.0}};
+  for (const MultiContactScene& scene : {slot, walls}) {
+    for (const std::vector<MultiContactMethod>& methods :
+         {std::vector<MultiContactMethod>{},
+          {MultiContactMethod::kOrders},
+          {MultiContactMethod::kOrders, MultiContactMethod::kPossible}}) {
+      const MultiContactAnswer answer = AnswerTo({.scene = scene, .methods = methods});
+      EXPECT_EQ(answer.verdict, MultiContactVerdict::kUnspecified);
+      EXPECT_TRUE(std::any_of(answer.orders.begin(), answer.orders.end(), [](const AttainedOutcome& order) {
+        return order.end == MultiContactEnd::kBudgetUsedUp;
+      }));
+    }
+  }
+}
+
+// Contacts that rest are at rest in every frame, and nothing strikes.
+TEST(HardMultiContactTest, ABoxThatSlidesIsNotStruckByRounding) {
+  for (int degrees = 0; degrees < 360; degrees += 7) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const std::vector<double> t = {std::cos(angle), std::sin(angle)}, n = {-t[1], t[0]};
+    MultiContactScene scene;
+    scene.system = FreeBodies{{{.mass_kg = 1.0,
+                                .inertia_com_kg_m2 = {0.4},
+                                .position_m = {0.5 * n[0], 0.5 * n[1]},
+                                .linear_m_s = {2.0 * t[0], 2.0 * t[1]}}}};
+    for (const double side : {-0.7, 0.7}) {
+      scene.contacts.push_back(
+          {.friction = 0.3, .energetic = 0.5, .body = 1, .point_m = {side * t[0], side * t[1]}, .normal = n});
+    }
+    const MultiContactAnswer answer = AnswerTo({.scene = scene});
+    EXPECT_EQ(answer.verdict, MultiContactVerdict::kSingle) << degrees;
+    EXPECT_EQ(answer.springs->events, 0) << degrees;
+  }
+}
+
+// A ball falls on a block that stands on two feet. The foot below it is pressed, and the other one is pulled open while
+// its velocity is still 0. The reference was integrated by matrix exponentials from event to event.
+TEST(HardMultiContactTest, AFootThatIsPulledOpenFromRestOpens) {
+  const auto springs_at = [](double foot) {
+    MultiContactScene scene;
+    scene.system = FreeBodies{
+        {{.mass_kg = 1.0, .inertia_com_kg_m2 = {5.0 / 12.0}, .position_m = {0.0, 0.5}},
+         {.mass_kg = 1.0, .inertia_com_kg_m2 = {0.1}, .position_m = {-0.9, 1.5}, .linear_m_s = {0.0, -1.0}}}};
+    std::get<FreeBodies>(scene.system).bodies.front().linear_m_s = {0.0, foot};
+    scene.contacts = {{.energetic = 1.0, .body = 1, .point_m = {-1.0, 0.0}, .normal = {0.0, 1.0}},
+                      {.energetic = 1.0, .body = 1, .point_m = {1.0, 0.0}, .normal = {0.0, 1.0}},
+                      {.energetic = 1.0, .body = 2, .other_body = 1, .point_m = {-0.9, 1.0}, .normal = {0.0, 1.0}}};
+    return *AnswerTo({.scene = scene}).springs;
+  };
+  for (const double foot : {0.0, 1e-12, -1e-12}) {
+    const AttainedOutcome springs = springs_at(foot);
+    EXPECT_NEAR(springs.contact_velocity_m_s[1], 0.69257339, 1e-7) << foot;
+    EXPECT_NEAR(springs.contact_velocity_m_s[3], 0.18883053, 1e-7) << foot;
+    EXPECT_NEAR(springs.contact_velocity_m_s[5], 0.21542108, 1e-7) << foot;
   }
 }
 
