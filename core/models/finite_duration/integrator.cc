@@ -14,7 +14,17 @@
 namespace ricochet::finite_duration {
 namespace {
 
-Motion& StateOf(N_Vector vector) { return *reinterpret_cast<Motion*>(NV_DATA_S(vector)); }
+// The parts in a vector. Only a contact that is pulled integrates kStretch, the last one.
+Motion MotionIn(N_Vector vector) {
+  Motion motion;
+  motion[kStretch] = 1.0;
+  std::copy_n(NV_DATA_S(vector), NV_LENGTH_S(vector), motion.begin());
+  return motion;
+}
+
+void Write(const Motion& motion, N_Vector vector) {
+  std::copy_n(motion.begin(), NV_LENGTH_S(vector), NV_DATA_S(vector));
+}
 
 // Checks a call that fails only where this program is wrong.
 void Require(int flag) { CheckInvariant(flag >= 0, "CVODE refused a call"); }
@@ -46,9 +56,9 @@ bool Integrator::LibraryIsWhole() {
 
 Integrator::Integrator(const ScaledContact& contact)
     : contact_(contact),
-      y_(N_VNew_Serial(kParts, context_)),
-      absolute_(N_VNew_Serial(kParts, context_)),
-      errors_(N_VNew_Serial(kParts, context_)),
+      y_(N_VNew_Serial(contact.pulled ? kParts : kParts - 1, context_)),
+      absolute_(N_VClone(y_)),
+      errors_(N_VClone(y_)),
       memory_(CVodeCreate(CV_ADAMS, context_)) {
   N_VConst(0.0, y_);
   N_VConst(1.0, absolute_);
@@ -77,8 +87,8 @@ Integrator::~Integrator() {
 void Integrator::Begin(const Mode& mode, const Motion& y, double tolerance) {
   Count();
   mode_ = mode;
-  StateOf(y_) = y;
-  Motion& absolute = StateOf(absolute_);
+  Write(y, y_);
+  Motion absolute;
   const double slip = std::max(1.0, std::fabs(contact_.u0));
   absolute.fill(tolerance);
   absolute[kU] *= slip;
@@ -86,6 +96,10 @@ void Integrator::Begin(const Mode& mode, const Motion& y, double tolerance) {
   absolute[kFrictionLoss] *= slip;
   absolute[kV] *= Pace(contact_, mode);
   for (const Part part : kForceParts) absolute[part] *= contact_.stiffness;
+  // A weak pull ends the contact where damping has left as little of N as the pull.
+  constexpr double kWeakest = 0x1p-60;
+  absolute[kStretch] *= std::clamp(std::max(std::fabs(contact_.an), std::fabs(contact_.at)), kWeakest, 1.0);
+  Write(absolute, absolute_);
   Require(CVodeReInit(memory_, 0.0, y_));
   Require(CVodeSVtolerances(memory_, tolerance, absolute_));
   s_ = previous_s_ = 0.0;
@@ -109,13 +123,13 @@ Integrator::Progress Integrator::Step(std::array<bool, kModeGuards>& fallen) {
   return Progress::kStep;
 }
 
-const Motion& Integrator::y() const { return StateOf(y_); }
+Motion Integrator::y() const { return MotionIn(y_); }
 
 Motion Integrator::Between(double s) {
   const Motion now = y();
   Require(CVodeGetDky(memory_, s, 0, y_));
   const Motion between = y();
-  StateOf(y_) = now;
+  Write(now, y_);
   return between;
 }
 
@@ -126,13 +140,13 @@ std::pair<int64_t, int64_t> Integrator::TakeCosts() {
 
 int Integrator::Rates(realtype /*s*/, N_Vector y, N_Vector rates, void* data) {
   const Integrator& self = *static_cast<const Integrator*>(data);
-  StateOf(rates) = RatesAt(self.contact_, self.mode_, StateOf(y));
+  Write(RatesAt(self.contact_, self.mode_, MotionIn(y)), rates);
   return 0;
 }
 
 int Integrator::Roots(realtype /*s*/, N_Vector y, realtype* values, void* data) {
   const Integrator& self = *static_cast<const Integrator*>(data);
-  const Guards guards = GuardsAt(self.contact_, self.mode_, StateOf(y));
+  const Guards guards = GuardsAt(self.contact_, self.mode_, MotionIn(y));
   std::transform(guards.begin(), guards.end(), values, InRangeOfSearch);
   constexpr int kGiveUp = -1;
   return std::any_of(guards.begin(), guards.end(), [](double guard) { return std::isnan(guard); }) ? kGiveUp : 0;
@@ -144,7 +158,9 @@ void Integrator::AddLocalErrors() {
   if (steps == step_of_errors_) return;
   step_of_errors_ = steps;
   Require(CVodeGetEstLocalErrors(memory_, errors_));
-  for (size_t i = 0; i < kParts; ++i) local_errors_[i] += std::fabs(StateOf(errors_)[i]);
+  for (sunindextype i = 0; i < NV_LENGTH_S(errors_); ++i) {
+    local_errors_[static_cast<size_t>(i)] += std::fabs(NV_Ith_S(errors_, i));
+  }
 }
 
 void Integrator::Count() {

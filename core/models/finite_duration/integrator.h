@@ -39,7 +39,7 @@ class Integrator {
   // Goes to the end of a step or the next root, and marks in `fallen` the guards that are 0 there.
   Progress Step(std::array<bool, kModeGuards>& fallen);
 
-  const Motion& y() const;
+  Motion y() const;
   double s() const { return s_; }
   double previous_s() const { return previous_s_; }
   // The motion anywhere in the last step.

@@ -35,12 +35,15 @@ double ParticleSpeed(const ScaledContact& contact, const Mode& mode, double dire
   return direction * u + share * v;
 }
 
-double Stretch(const ScaledContact& contact, const Motion& y) { return 1.0 - contact.damping * y[kV]; }
+double Stretch(const ScaledContact& contact, const Motion& y) {
+  return contact.pulled ? y[kStretch] : 1.0 - contact.damping * y[kV];
+}
 
 Motion MotionAtStart(const ScaledContact& contact) {
   Motion y = {};
   y[kU] = contact.u0;
   y[kV] = -1.0;
+  y[kStretch] = 1.0 + contact.damping;
   return y;
 }
 
@@ -112,6 +115,7 @@ Motion RatesAt(const ScaledContact& contact, const Mode& mode, const Motion& y) 
   rates[kNormalWork] = forces.normal * y[kV] * dt;
   rates[kTangentWork] = forces.tangential * y[kU] * dt;
   rates[kFrictionLoss] = contact.mu * forces.normal * slip * dt;
+  rates[kStretch] = -contact.damping * rates[kV];
   rates[kDampingLoss] = LoadingCurve(contact, y[kPlace]) * contact.damping * Square(y[kV]) * dt;
   return rates;
 }

@@ -29,6 +29,7 @@ enum Part : size_t {
   kTangentWork,
   kFrictionLoss,
   kDampingLoss,
+  kStretch,  // 1 - c v, the factor of damping in N, where a pull makes it matter how close to 0 that comes.
   kParts
 };
 using Motion = std::array<double, kParts>;
@@ -61,7 +62,7 @@ double LoadingCurve(const ScaledContact& contact, double place);
 // follows from that of the contact in the same way.
 double ParticleSpeed(const ScaledContact& contact, const Mode& mode, double direction, double u, double v);
 
-// 1 - c v, the factor of damping in N.
+// 1 - c v
 double Stretch(const ScaledContact& contact, const Motion& y);
 
 Motion MotionAtStart(const ScaledContact& contact);

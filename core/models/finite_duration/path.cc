@@ -119,7 +119,11 @@ class PathFollower {
 
   void EndPath(PathEnd how) { path_.how = how; }
 
-  void AddEvent(EventKind kind) { path_.events.push_back({kind, y_}); }
+  // A contact does not pull: a normal impulse that has fallen since the event before is rounding.
+  void AddEvent(EventKind kind) {
+    if (!path_.events.empty()) y_[kNormal] = std::max(y_[kNormal], path_.events.back().y[kNormal]);
+    path_.events.push_back({kind, y_});
+  }
 
   void NoteFirstStop() {
     if (path_.first_stop != FirstStop::kNever) return;
@@ -218,6 +222,7 @@ class PathFollower {
     const double ratio = rates[velocity] != 0.0 ? other / std::fabs(rates[velocity]) : 0.0;
     path_.cut_off[velocity] += std::fabs(y_[velocity]) * std::max(1.0, ratio);
     y_[velocity] = 0.0;
+    if (velocity == kV) y_[kStretch] = 1.0;
   }
 
   const ScaledContact& contact_;

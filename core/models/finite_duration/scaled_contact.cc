@@ -107,6 +107,7 @@ ScaledContact MakeScaledContact(const Problem& problem) {
   contact.compliant = problem.ratio_squared.has_value();
   contact.ratio_squared = problem.ratio_squared.value_or(0.0);
   SetInertia(problem.contact, contact);
+  contact.pulled = contact.damped && (contact.an > 0.0 || contact.at != 0.0);
   contact.smooth = problem.contact.mu_static == 0.0 || (contact.wtt == 0.0 && contact.u0 == 0.0);
   contact.holds_freely = HoldsFreely(problem.contact, contact.rank);
   return contact;

@@ -31,6 +31,7 @@ struct ScaledContact {
   bool rooted = false;     // p != 1: the place that is integrated is q with x = q^2.
   bool damped = false;     // The law is that of Hunt and Crossley.
   double damping = 0.0;    // c
+  bool pulled = false;     // It is damped, and finite forces may pull it apart.
   double eta = 1.0;        // 1 for Hunt and Crossley, whose loading and unloading are one curve.
   bool compliant = false;
   double ratio_squared = 0.0;

@@ -245,6 +245,25 @@ TEST(FiniteDurationTest, StrongDampingTakesTheTimeOfItsPhasePlane) {
   }
 }
 
+// Strong damping leaves next to nothing of N before a weak pull ends the contact. The references are those of implicit
+// integrations of the indentation and 1 - c v (k = Wnn = |v0| = 1).
+TEST(FiniteDurationTest, AWeakPullEndsStrongDampingWhenItExceedsTheForce) {
+  struct Pulled {
+    double p, c, pull, duration;
+  };
+  for (const auto& [p, c, pull, duration] : {Pulled{1.0, 20.0, 1e-6, 3.2925485}, Pulled{1.0, 100.0, 1e-12, 2.405550},
+                                             Pulled{1.0, 100.0, 1e-15, 2.99618}, Pulled{1.5, 1000.0, 1e-16, 1.55062}}) {
+    for (const double tolerance : {1e-12, 1e-6, 1e-3}) {
+      const Impact impact = Solve({.contact = {.w = {1.0, 0.0, 1.0}, .v0 = -1.0},
+                                   .normal_acceleration = pull,
+                                   .spring = HuntCrossleySpring{1.0, p, c},
+                                   .tolerance = tolerance});
+      ASSERT_TRUE(impact.Converged()) << c;
+      EXPECT_NEAR(impact.contact.duration_s / duration, 1.0, std::max(2e-6, 0.1 * tolerance)) << c << " " << tolerance;
+    }
+  }
+}
+
 TEST(FiniteDurationTest, HuntCrossleyWithoutDampingIsElasticToTheBit) {
   const Impact impact = Solve(Rod(HuntCrossleySpring{1e6, 1.5, 0.0}));
   EXPECT_EQ(impact.energetic, 1.0);
