@@ -145,7 +145,15 @@ std::string ForContact(Effect effect, const PlannedEffects::Facts& facts) {
   if (kOnFriction.Has(effect) && IsLeftOut(fact) && IsLeftOut(facts[static_cast<size_t>(Effect::kFriction)])) {
     return "included in the change by friction";
   }
-  return ReasonOf(effect, {.value = fact.size, .basis = BasisOf(effect, facts), .number = fact.number}, KindOf(facts));
+  const Basis basis = BasisOf(effect, facts);
+  const std::string reason =
+      ReasonOf(effect, {.value = fact.size, .basis = basis, .number = fact.number}, KindOf(facts));
+  // The other effects are sized for the impact without finite forces, which is what is left after these.
+  const bool has_forces = facts[static_cast<size_t>(Effect::kFiniteForces)].decision == Decision::kSimulated;
+  const bool is_of_path = basis == Basis::kInequality || basis == Basis::kSlidesThroughout ||
+                          basis == Basis::kDecidesNothing || basis == Basis::kStaysAtRest;
+  if (!has_forces || !is_of_path || effect == Effect::kFiniteForces) return reason;
+  return absl::StrCat("without the finite forces, ", reason);
 }
 
 }  // namespace

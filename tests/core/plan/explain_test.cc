@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "tests/support/scenes/plan_scenes.h"
 
@@ -73,6 +74,17 @@ TEST(ExplainTest, FrictionSaysWhatItIsInAndWhatItChanges) {
   const PlannedEffect& friction = On(plan, Effect::kFriction);
   EXPECT_EQ(friction.decision, Decision::kNegligible);
   EXPECT_EQ(friction.reason, "mu |Wtn|/Wnn = 1e-05: friction changes velocities by at most 0.000152");
+}
+
+// Forces that press make impulses larger, and friction with them.
+TEST(ExplainTest, SizesBesideFiniteForcesSayThatTheyAreThoseWithoutThem) {
+  const ContactPhysics pressed = {.normal_acceleration = -200.0, .spring = LinearSpring{1e4}};
+  const Plan plan = PlanOf(Slider(), pressed, {.relative_tolerance = 1e-3});
+  EXPECT_EQ(plan.model, Model::kFiniteDuration);
+  for (const Effect effect : {Effect::kFriction, Effect::kSlipStop}) {
+    EXPECT_EQ(On(plan, effect).reason.rfind("without the finite forces, ", 0), 0U) << On(plan, effect).reason;
+  }
+  EXPECT_EQ(On(plan, Effect::kFiniteForces).reason.find("without"), std::string::npos);
 }
 
 TEST(ExplainTest, APendulumSpeaksOfX) {
