@@ -78,7 +78,7 @@ TEST(ExplainTest, FrictionSaysWhatItIsInAndWhatItChanges) {
 
 // Forces that press make impulses larger, and friction with them.
 TEST(ExplainTest, SizesBesideFiniteForcesSayThatTheyAreThoseWithoutThem) {
-  const ContactPhysics pressed = {.normal_acceleration = -200.0, .spring = LinearSpring{1e4}};
+  const ContactPhysics pressed = {.spring = LinearSpring{1e4}, .normal_acceleration = -200.0};
   const Plan plan = PlanOf(Slider(), pressed, {.relative_tolerance = 1e-3});
   EXPECT_EQ(plan.model, Model::kFiniteDuration);
   for (const Effect effect : {Effect::kFriction, Effect::kSlipStop}) {
