@@ -79,8 +79,9 @@ class PathFollower {
       mode_changed_ = true;
       return;
     }
-    if (RunsBack(integrator_.y()[kTime])) return EndPath(PathEnd::kNeverEnds);
-    y_ = integrator_.y();
+    const Motion next = integrator_.y();
+    if (RunsBack(next[kTime]) || LeavesRange(next)) return EndPath(PathEnd::kNeverEnds);
+    y_ = next;
     if (history_ != nullptr) history_->AddSamplesOfStep(mode_, y_, stop_);
     path_.peaks.Add(contact_, mode_, y_);
     // A guard that starts at 0 and falls has no root; it is below 0 at the end of a step.
@@ -115,6 +116,12 @@ class PathFollower {
   bool RunsBack(double time) const {
     constexpr double kRounding = 1e-9;
     return time < y_[kTime] * (1.0 - kRounding) || time < 0.0;
+  }
+
+  // A contact that slides on and on under forces that press takes up energy without bound.
+  static bool LeavesRange(const Motion& y) {
+    constexpr double kLargest = 0x1p500;
+    return std::any_of(y.begin(), y.end(), [](double part) { return !(std::fabs(part) <= kLargest); });
   }
 
   void EndPath(PathEnd how) { path_.how = how; }

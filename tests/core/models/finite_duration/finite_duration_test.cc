@@ -264,6 +264,23 @@ TEST(FiniteDurationTest, AWeakPullEndsStrongDampingWhenItExceedsTheForce) {
   }
 }
 
+// Forces that press make this contact slide on for ever.
+TEST(FiniteDurationTest, WhatSlidesOnForEverIsWedgedAtEveryTolerance) {
+  for (const double tolerance : {1e-12, 1e-6, 1e-5, 1e-3}) {
+    const Impact impact = Solve({.contact = {.w = {0.04175769164366804, -0.032409646780643515, 0.03871869456021673},
+                                             .u0 = 1.73929694899484,
+                                             .v0 = -2.3522136857222296,
+                                             .mu = 2.284922412399314,
+                                             .mu_static = 2.284922412399314},
+                                 .tangential_acceleration = 208935.1130068348,
+                                 .normal_acceleration = -7918.795489663881,
+                                 .spring = HuntCrossleySpring{1533540.0371225511, 1.0, 0.08438831037720504},
+                                 .tolerance = tolerance});
+    EXPECT_EQ(impact.regime, Regime::kWedged) << tolerance;
+    EXPECT_TRUE(std::isfinite(impact.work_tangential_restitution)) << tolerance;
+  }
+}
+
 TEST(FiniteDurationTest, HuntCrossleyWithoutDampingIsElasticToTheBit) {
   const Impact impact = Solve(Rod(HuntCrossleySpring{1e6, 1.5, 0.0}));
   EXPECT_EQ(impact.energetic, 1.0);
