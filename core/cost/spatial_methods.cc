@@ -1,6 +1,6 @@
 // The spatial model at tolerances from 1e-2 to 1e-12, or at the last alone where the path takes no steps.
 
-#include <span>
+#include <iterator>
 
 #include "absl/strings/str_cat.h"
 #include "core/cost/methods_by_model.h"
@@ -27,11 +27,12 @@ Kernel SpatialKernel(const Problem& problem) {
 }  // namespace
 
 void AddSpatial(const Problem& problem, const ReferencePointer& exact, Methods& methods) {
-  Problem at = problem;
-  at.tolerance = kTolerances[0];
-  std::span<const double> tolerances = kTolerances;
-  if (spatial::Solve(at).steps == 0) tolerances = tolerances.last(1);
-  for (const double tolerance : tolerances) {
+  Problem coarse = problem;
+  coarse.tolerance = *std::begin(kTolerances);
+  const bool is_straight = spatial::Solve(coarse).steps == 0;
+  for (const double tolerance : kTolerances) {
+    if (is_straight && tolerance != *std::rbegin(kTolerances)) continue;
+    Problem at = problem;
     at.tolerance = tolerance;
     methods.push_back({.name = absl::StrCat("space ", tolerance),
                        .method = {.model = Model::kSpatial, .arithmetic = Arithmetic::kPlain, .tolerance = tolerance},

@@ -166,11 +166,12 @@ class Search {
       if (others != next.begin()) next.erase(others, next.end());
       if (next.size() > 1) {
         const Met met = Meet(state, next);
+        if (met == Met::kElsewhere) return taken;
         if (met == Met::kOnTheWay) {
           state.end = MultiContactEnd::kBudgetUsedUp;
           Keep(std::move(state));
+          return taken;
         }
-        if (met != Met::kNever) return taken;
       }
       if (shares_) LeaveOutBranches(budget - taken, state.events, next);
       for (size_t i = 0; i + 1 < next.size(); ++i) {

@@ -146,8 +146,7 @@ std::string ForContact(Effect effect, const PlannedEffects::Facts& facts) {
     return "included in the change by friction";
   }
   const Basis basis = BasisOf(effect, facts);
-  const std::string reason =
-      ReasonOf(effect, {.value = fact.size, .basis = basis, .number = fact.number}, KindOf(facts));
+  std::string reason = ReasonOf(effect, {.value = fact.size, .basis = basis, .number = fact.number}, KindOf(facts));
   // The other effects are sized for the impact without finite forces, which is what is left after these.
   const bool has_forces = facts[static_cast<size_t>(Effect::kFiniteForces)].decision == Decision::kSimulated;
   const bool is_of_path = basis == Basis::kInequality || basis == Basis::kSlidesThroughout ||

@@ -236,7 +236,7 @@ struct Flat {
   Value Struct::*member;
   Fields fields;
 
-  constexpr Flat(Value Struct::*its_member, Fields its_fields) : member(its_member), fields(its_fields) {}
+  constexpr Flat(Value Struct::*its_member, Fields its_fields) : member(its_member), fields(std::move(its_fields)) {}
 
   template <typename Message>
   void Write(const Struct& value, Message& message) const {
@@ -254,7 +254,8 @@ struct Nested {
   Access access;
   Fields fields;
 
-  constexpr Nested(Access its_access, Fields its_fields) : access(its_access), fields(its_fields) {}
+  constexpr Nested(Access its_access, Fields its_fields)
+      : access(std::move(its_access)), fields(std::move(its_fields)) {}
 
   template <typename Struct, typename Message>
   void Write(const Struct& value, Message& message) const {
