@@ -159,6 +159,7 @@ AuditRows::AuditRows(const AuditColumns& columns, size_t size, Scene scene, cons
     : columns_(columns),
       size_(size),
       scene_(std::move(scene)),
+      reduction_(contact.reduction),
       scene_problem_(audit::MakeProblem(scene_, contact, /*from_own_velocity=*/!HasVelocityBefore(columns))) {}
 
 absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, absl::FunctionRef<bool()> stopped) const {
@@ -166,6 +167,10 @@ absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, absl::FunctionRef<bool(
   const audit::Observation seen = ObservationAt(row);
   if (!IsValid(problem, seen)) return AuditReport{.regime = Regime::kInvalid};
   absl::StatusOr<AuditReport> report = audit::Audit(problem, seen, stopped);
+  // The velocities of the system before are those of the scene, whatever a row states for its contact.
+  if (report.ok() && !columns_.rates_after.empty() && !HasVelocityBefore(columns_)) {
+    audit::CheckRates(reduction_, RatesAt(row), seen.uncertainty, *report);
+  }
   if (report.ok() && audit::OverflowIn(*report) != nullptr) return AuditReport{.regime = Regime::kInvalid};
   return report;
 }
@@ -206,12 +211,16 @@ void AuditRows::SetFriction(size_t row, double& mu, double& mu_static) const {
   }
 }
 
+std::vector<double> AuditRows::RatesAt(size_t row) const {
+  std::vector<double> rates;
+  for (const std::vector<double>& column : columns_.rates_after) rates.push_back(ValueAt(column, row));
+  return rates;
+}
+
 audit::Observation AuditRows::ObservationAt(size_t row) const {
   audit::Observation seen;
   if (!columns_.rates_after.empty()) {
-    std::vector<double> rates;
-    for (const std::vector<double>& column : columns_.rates_after) rates.push_back(ValueAt(column, row));
-    const ContactVelocity velocity = ContactVelocityAt(scene_, rates);
+    const ContactVelocity velocity = ContactVelocityAt(scene_, RatesAt(row));
     std::copy(velocity.tangential_m_s.begin(), velocity.tangential_m_s.end(), seen.u1.begin());
     seen.v1 = velocity.normal_m_s;
   } else {

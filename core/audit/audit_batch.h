@@ -39,11 +39,13 @@ class AuditRows {
   void SetVelocity(size_t row, planar::Problem& problem) const;
   void SetVelocity(size_t row, spatial::Problem& problem) const;
   void SetFriction(size_t row, double& mu, double& mu_static) const;
+  std::vector<double> RatesAt(size_t row) const;
   audit::Observation ObservationAt(size_t row) const;
 
   const AuditColumns& columns_;
   size_t size_;
   Scene scene_;
+  AnyReduction reduction_;
   audit::AnyProblem scene_problem_;  // From the scene's own velocity.
 };
 

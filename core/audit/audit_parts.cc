@@ -1,5 +1,10 @@
 #include "core/audit/audit_parts.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -38,6 +43,47 @@ Scene WithoutRestitution(Scene scene) {
   scene.restitution_by_speed.reset();
   scene.impact_law = std::monostate();
   return scene;
+}
+
+namespace {
+
+// How far one velocity of the system is from what the impulse makes of it, as the speed of the contact that changes it
+// as much.
+template <typename Reduction>
+double DistanceOf(const Reduction& reduction, size_t place, double rate, double uncertainty,
+                  const std::array<double, Reduction::kDirections>& impulse) {
+  constexpr double kRounding = 1e-9;
+  double expected = reduction.before[place], size = std::fabs(rate) + std::fabs(expected), by_speed = 0.0;
+  for (size_t a = 0; a < Reduction::kDirections; ++a) {
+    const double response = reduction.response[place * Reduction::kDirections + a];
+    const double mobility = reduction.w[a * Reduction::kDirections - a * (a - 1) / 2];
+    expected += response * impulse[a];
+    size += std::fabs(response * impulse[a]);
+    if (mobility > 0.0) by_speed += std::fabs(response) / mobility;
+  }
+  const double miss = std::fabs(rate - expected);
+  if (!(miss > by_speed * uncertainty + kRounding * size)) return 0.0;
+  return by_speed > 0.0 ? miss / by_speed : miss;
+}
+
+}  // namespace
+
+void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, double uncertainty,
+                AuditReport& report) {
+  if (report.unexplained || report.regime == Regime::kInvalid) return;
+  std::visit(
+      [&](const auto& of) {
+        using Reduction = std::decay_t<decltype(of)>;
+        std::array<double, Reduction::kDirections> impulse = {};
+        std::copy_n(report.tangential_impulse.begin(), impulse.size() - 1, impulse.begin());
+        impulse.back() = report.normal_impulse;
+        for (size_t i = 0; i < rates.size(); ++i) {
+          report.distance = std::max(report.distance, DistanceOf(of, i, rates[i], uncertainty, impulse));
+        }
+      },
+      reduction);
+  report.unexplained = report.distance > 0.0;
+  report.admissible = report.admissible && !report.unexplained;
 }
 
 AnyProblem MakeProblem(const Scene& scene, const SceneContact& contact, bool from_own_velocity) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "absl/types/span.h"
 #include "core/audit/audit.h"
 #include "core/contact/scene_contact.h"
 #include "ricochet/audit.h"
@@ -21,6 +22,10 @@ std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact
 
 // Removes the restitution and the impact law, which an audit does not use.
 Scene WithoutRestitution(Scene scene);
+
+// Calls a report unexplained if its impulse does not make these velocities of the system, to within rounding and what
+// `uncertainty` of the contact velocity changes in them.
+void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, double uncertainty, AuditReport& report);
 
 // Makes the problem whose path an observation is held against: a pendulum's closed form where the scene has one and its
 // own velocity is meant, else the scene's contact.

@@ -82,9 +82,12 @@ absl::StatusOr<AuditResponse> AuditScene(const AuditRequest& request, absl::Func
   const audit::Observation observation = {.u1 = {tangential[0], tangential.size() > 1 ? tangential[1] : 0.0},
                                           .v1 = seen.normal_m_s,
                                           .uncertainty = request.velocity_uncertainty_m_s};
-  const absl::StatusOr<AuditReport> report =
+  absl::StatusOr<AuditReport> report =
       audit::Audit(audit::MakeProblem(scene, *contact, /*from_own_velocity=*/true), observation, stopped);
   if (!report.ok()) return report.status();
+  if (const auto* rates = std::get_if<ObservedRates>(&request.observed); rates != nullptr) {
+    audit::CheckRates(contact->reduction, rates->values, observation.uncertainty, *report);
+  }
   if (const char* path = audit::OverflowIn(*report); path != nullptr) return OutputOverflow(path);
   return AuditResponse{.report = *report, .contact_energy_j = ContactEnergy(contact->reduction), .engine = {}};
 }

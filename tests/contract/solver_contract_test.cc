@@ -514,6 +514,27 @@ TEST_P(SolverContract, AuditOfAnAnswerGivesItsCoefficientBack) {
     const auto row = solver().AuditBatch(batch);
     ASSERT_TRUE(row.ok()) << row.status();
     EXPECT_EQ(row->reports[0].normal_impulse, by_rates->report.normal_impulse) << "system " << system.index();
+    EXPECT_EQ(row->reports[0].unexplained, by_rates->report.unexplained) << "system " << system.index();
+  }
+}
+
+// A velocity that the impulse at the contact does not make beside the others.
+TEST_P(SolverContract, AuditOfRatesThatNoImpulseMakesIsUnexplained) {
+  for (const System& system : Systems()) {
+    const Scene scene = With(system);
+    const auto solved = solver().Solve({.scene = scene, .history_at_n_s = {}});
+    ASSERT_TRUE(solved.ok()) << solved.status();
+    const ObservedRates rates = RatesOf(solved->outcome);
+    if (rates.values.size() <= TangentialDirections(system) + 1) continue;  // Any such velocities have an impulse.
+    for (size_t i = 0; i < rates.values.size(); ++i) {
+      ObservedRates wrong = rates;
+      wrong.values[i] += 0.1;
+      const auto audit = solver().Audit({.scene = scene, .observed = wrong, .velocity_uncertainty_m_s = 1e-6});
+      ASSERT_TRUE(audit.ok()) << audit.status();
+      EXPECT_TRUE(audit->report.unexplained) << "system " << system.index() << " velocity " << i;
+      EXPECT_FALSE(audit->report.admissible) << "system " << system.index() << " velocity " << i;
+      EXPECT_GT(audit->report.distance, 1e-6) << "system " << system.index() << " velocity " << i;
+    }
   }
 }
 

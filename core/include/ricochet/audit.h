@@ -79,9 +79,11 @@ struct LimitCheck {
 struct AuditReport {
   Regime regime = Regime::kUnspecified;  // The regime of the path up to the observed normal impulse.
   int w_rank = 0;
-  bool admissible = false;   // The observation is explained and breaks no limit.
-  bool unexplained = false;  // W is rank deficient or the contact separates, and the path misses the observed velocity.
-  double distance = 0.0;     // Distance of the observed velocity to the nearest point of the path, m/s; 0 if explained.
+  bool admissible = false;  // The observation is explained and breaks no limit.
+  // W is rank deficient or the contact separates, and the path misses the observed velocity; or no impulse at the
+  // contact makes all observed velocities of the system.
+  bool unexplained = false;
+  double distance = 0.0;  // Distance of the observed velocity to the nearest point of the path, m/s; 0 if explained.
   bool compression_ended = false;  // If false, p_n < tau_c, Poisson's coefficient is negative and the energetic one 0.
   double newton = 0.0;
   double poisson = 0.0;
