@@ -204,7 +204,7 @@ class Sides {
     constexpr double kVague = 0.1;
     constexpr double kNegligible = 1e-4;
     const double negligible = kNegligible * source_.scale(i) / line_.unit();
-    // What no neighbour changes does not change, however vague the number itself is.
+    // A number that no neighbour changes is constant, however large its error is.
     const bool stays = rate == 0.0 && std::isfinite(error);
     if (!(error <= std::max(kVague * std::fabs(rate), negligible)) && !stays) {
       return {.why_none = "the number changes infinitely fast, or too fast to tell how fast"};

@@ -203,7 +203,7 @@ OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
   }
   const double here = ValueAt(place, std::get<PlanarReduction>(here_->reduction), values_here_);
   const double size = std::max({std::fabs(here), std::fabs(value), SizeOf(place)});
-  // What depends on a number that is moved beside 0 moves along.
+  // A number that depends on one which is moved beside 0 moves with it.
   const double moved = IsMoved(side) ? 2.0 * std::fabs(rate * side.step) : 0.0;
   if (std::fabs(value - here) > std::max(0x1p-30 * size, moved)) return {.why_none = "the number jumps"};
   return {.rate = rate + 0.0};

@@ -36,7 +36,7 @@ class ExactDerivatives {
 
   // The derivative of paths.of[of] by paths.by[by] at the last scene, without their names and its error.
   Derivative At(size_t of, size_t by) const;
-  // Its error if W is so nearly singular that the rounding of W takes more of its digits than usual.
+  // The error of that derivative; set if W is so nearly singular that its rounding takes more than six digits.
   std::optional<double> ErrorOf(size_t of, size_t by) const;
 
  private:

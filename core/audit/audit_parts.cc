@@ -47,17 +47,16 @@ Scene WithoutRestitution(Scene scene) {
 
 namespace {
 
-// How far one velocity of the system is from what the impulse makes of it, as the speed of the contact that changes it
-// as much.
+// Returns how far one velocity of the system is from what the impulse makes of it, `expected`, as the speed of the
+// contact that changes it as much; 0 where `uncertainty` or rounding explains that.
 template <typename Reduction>
-double DistanceOf(const Reduction& reduction, size_t place, double rate, double uncertainty,
+double DistanceOf(const Reduction& reduction, size_t place, double rate, double expected, double uncertainty,
                   const std::array<double, Reduction::kDirections>& impulse) {
   constexpr double kRounding = 1e-9;
-  double expected = reduction.before[place], size = std::fabs(rate) + std::fabs(expected), by_speed = 0.0;
+  double size = std::fabs(rate) + std::fabs(reduction.before[place]), by_speed = 0.0;
   for (size_t a = 0; a < Reduction::kDirections; ++a) {
     const double response = reduction.response[place * Reduction::kDirections + a];
     const double mobility = reduction.w[a * Reduction::kDirections - a * (a - 1) / 2];
-    expected += response * impulse[a];
     size += std::fabs(response * impulse[a]);
     if (mobility > 0.0) by_speed += std::fabs(response) / mobility;
   }
@@ -74,11 +73,15 @@ void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, d
   std::visit(
       [&](const auto& of) {
         using Reduction = std::decay_t<decltype(of)>;
-        std::array<double, Reduction::kDirections> impulse = {};
-        std::copy_n(report.tangential_impulse.begin(), impulse.size() - 1, impulse.begin());
+        std::array<double, Reduction::kDirections - 1> tangential;
+        std::array<double, Reduction::kDirections> impulse;
+        std::copy_n(report.tangential_impulse.begin(), tangential.size(), tangential.begin());
+        std::copy(tangential.begin(), tangential.end(), impulse.begin());
         impulse.back() = report.normal_impulse;
+        const auto expected = of.After(tangential, report.normal_impulse);
         for (size_t i = 0; i < rates.size(); ++i) {
-          report.distance = std::max(report.distance, DistanceOf(of, i, rates[i], uncertainty, impulse));
+          const double distance = DistanceOf(of, i, rates[i], expected[i], uncertainty, impulse);
+          report.distance = std::max(report.distance, distance);
         }
       },
       reduction);

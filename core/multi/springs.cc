@@ -378,7 +378,7 @@ class Motion {
     return contacts;
   }
 
-  // True if the contact has just stopped to slip at the same instant as another. These may hold each other, and are
+  // True if the contact has just stopped slipping at the same instant as another. These may hold each other, and are
   // tried as stuck together: if one were left to slip, the others would only hold against its friction.
   bool StopsWithOthers(int i) const {
     return event_.has_value() && event_->contacts.count() > 1 && event_->contacts[At(i)];

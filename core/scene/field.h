@@ -86,7 +86,7 @@ std::string Found(const std::string& text);
 // one.
 std::vector<std::string> FieldPaths(const Scene& scene);
 
-// These paths, and both of two such entries.
+// The paths of all fields: those above, and the lower entries of a mass matrix.
 std::vector<std::string> AllFieldPaths(const Scene& scene);
 
 }  // namespace ricochet
