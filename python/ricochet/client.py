@@ -38,7 +38,6 @@ _STATUSES = _core.enum_names("RowStatus")
 _VERDICTS = _core.enum_names("LimitCheck.Verdict")
 _WITHOUT_NUMBERS = [_STATUSES.index(name) for name in ("INVALID", "NOT_REPRESENTABLE")]
 _WITHOUT_END = [_REGIMES.index(name) for name in ("WEDGED", "NO_SOLUTION")]
-_SIDES = {"both": "value", "below": "from_below", "above": "from_above"}
 _MOST_AUDIT_ROWS = 8192  # In one call, where the server allows as many.
 _clients: "weakref.WeakSet[Client]" = weakref.WeakSet()
 
@@ -168,9 +167,9 @@ class Client:
             certified: also give numbers with this many proved significant digits, at most 1000.
             both_ends: also give the impact in which no coordinate of a mechanism is held, as ``free_end``.
             derivatives: also give how fast numbers of the outcome change with numbers of the scene:
-                ``{"of": ["impulse.normal_total_n_s"], "by": ["friction.kinetic_coefficient"]}``; ``jacobian`` gives
-                them as an array. ``"find_thresholds": True`` also gives how far each number of ``by`` may move before
-                the impact takes another course, as ``below`` and ``above`` of each derivative.
+                ``{"of": ["impulse.normal_total_n_s"], "by": ["friction.kinetic_coefficient"]}``; ``jacobian(of, by)`` of
+                the outcome gives them as an array. ``"find_thresholds": True`` also gives how far each number of
+                ``by`` may move before the impact takes another course, as ``below`` and ``above`` of each derivative.
 
         Returns:
             The outcome as ricochet.v1.Outcome has it: ``outcome.coefficients.newton``,
@@ -211,13 +210,9 @@ class Client:
                 message has the names that it may mean.
             RicochetError: the call failed otherwise.
         """
-        if side not in _SIDES:
-            values.refuse("side", f"= {side!r}: must be one of {', '.join(_SIDES)}")
         scene = Scene(scene)
         paths = _full_paths({"of": of, "by": by}, {"of": scene._columns(), "by": scene._fields()})
-        derivatives = self.solve(scene, derivatives=paths).derivatives
-        numbers = [each[_SIDES[side]] for each in derivatives]
-        return np.array(numbers, dtype=np.float64).reshape(len(paths["of"]), len(paths["by"]))
+        return self.solve(scene, derivatives=paths).jacobian(paths["of"], paths["by"], side=side)
 
     def plan(
         self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Literal
 
-from ricochet import _core
+import numpy as np
+
+from ricochet import _core, names, values
 from ricochet.units import unit_of
 from ricochet.values import suggestion
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
 _WIDTH = 110  # A record on one line is at most so wide.
 _MOST_ENTRIES = 12  # A list in a record for people shows so many.
+_SIDES = {"both": "value", "below": "from_below", "above": "from_above"}
 
 
 class Record(dict[str, Any]):
@@ -31,6 +37,33 @@ class Record(dict[str, Any]):
 
     def __dir__(self) -> Iterable[str]:
         return [*super().__dir__(), *self]
+
+    def jacobian(
+        self, of: str | Iterable[str], by: str | Iterable[str], *, side: Literal["both", "below", "above"] = "both",
+    ) -> NDArray[np.float64]:
+        """Gives the derivatives of an outcome, or of bounds, that were asked for with ``derivatives``, as an array.
+
+        Args:
+            of, by, side: as in ``ricochet.jacobian``.
+
+        Returns:
+            An array with a row for each number of ``of`` and a column for each of ``by``, with NaN where there is no
+            such derivative; ``derivatives`` says why.
+
+        Raises:
+            InvalidRequest: a name means none of the numbers that were asked for, or several.
+        """
+        if side not in _SIDES:
+            values.refuse("side", f"= {side!r}: must be one of {', '.join(_SIDES)}")
+        known = {(each["of"], each["by"]): each[_SIDES[side]] for each in self.get("derivatives") or ()}
+        if not known:
+            values.refuse("derivatives", 'must be asked for: solve(scene, derivatives={"of": [...], "by": [...]})')
+        rows, columns = (
+            [_asked_for(name, list(dict.fromkeys(pair[i] for pair in known)), what)
+             for name in values.names(given, what)]
+            for i, (what, given) in enumerate((("of", of), ("by", by))))
+        return np.array([[known[row, column] for column in columns] for row in rows], dtype=np.float64).reshape(
+            len(rows), len(columns))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Record, (dict(self),)
@@ -63,6 +96,13 @@ class UnreadRecord(Record):
 
     def __getitem__(self, name: str) -> Any:
         return _core.read_entry(self, name)
+
+
+def _asked_for(name: str, known: list[str], what: str) -> str:
+    meant = names.meanings(name, known)
+    if len(meant) != 1:
+        values.refuse(what, f"= {name!r}: must name one of {', '.join(meant or known)}")
+    return meant[0]
 
 
 def _reading(name: str) -> Callable[..., Any]:

@@ -314,6 +314,18 @@ class Jacobians(unittest.TestCase):
             with xarray.open_dataarray(Path(directory) / "x.nc") as file:
                 np.testing.assert_array_equal(file.values, [-1.5, -1.5])
 
+    def test_an_outcome_gives_the_derivatives_it_was_asked_for_as_an_array(self):
+        outcome = ricochet.solve(self.SCENE, derivatives={"of": ["newton", "poisson"], "by": ["mu", "energetic"]})
+        whole = ricochet.jacobian(self.SCENE, ["newton", "poisson"], ["mu", "energetic"])
+        np.testing.assert_array_equal(outcome.jacobian(["coefficients.poisson", "newton"], "mu"), whole[::-1, :1])
+        np.testing.assert_array_equal(outcome.jacobian("poisson", ["energetic", "mu"]), whole[1:, ::-1])
+        for record, of, text in (
+                (outcome, "regime", "of = 'regime': must name one of coefficients.newton, coefficients.poisson"),
+                (ricochet.solve(self.SCENE), "newton", "derivatives must be asked for")):
+            with self.subTest(text), self.assertRaises(ricochet.InvalidRequest) as caught:
+                record.jacobian(of, "mu")
+            self.assertIn(text, str(caught.exception))
+
     def test_what_has_no_derivatives_is_refused(self):
         for scene, of, side, text in (
                 (self.SCENE, "effective.kinetic", "both", "derivatives.of[0]"),
