@@ -90,13 +90,16 @@ std::string CaseText(const ConformanceCase& one) {
                    MatrixText(one.jacobian), "  friction\n", MatrixText(one.friction.transpose()),
                    "  coefficient of restitution\n", MatrixText(one.coefficient.transpose()), "\n");
   Table table;
+  const bool moves = !one.frame.isZero(0.0);
   std::vector<std::string> head = {"", "before"};
+  if (moves) head.emplace_back("of the surface");
   for (const RightAnswer& answer : one.answers) {
     head.push_back(absl::StrCat(answer.law, answer.also.empty() ? "" : ", ", absl::StrJoin(answer.also, ", ")));
   }
   table.Add(head);
   for (Eigen::Index i = 0; i < one.before.size(); ++i) {
     std::vector<std::string> row = {one.coordinates[static_cast<size_t>(i)], ShortestDecimal(one.before(i))};
+    if (moves) row.push_back(ShortestDecimal(one.frame(i)));
     for (const RightAnswer& answer : one.answers) row.push_back(ShortestDecimal(answer.velocity_after(i)));
     table.Add(std::move(row));
   }

@@ -141,6 +141,11 @@ std::string SummaryText(const Solved& solved) {
   std::string text = absl::StrCat(Counted(summary.counts.points, "row"), ", ", invalid, " without numbers, ",
                                   summary.counts.inadmissible.count, " inadmissible, ", endless,
                                   " without an end or a solution, ", inexact, " less accurate than asked\n");
+  const int64_t separating = summary.counts.by_regime[static_cast<size_t>(Regime::kSeparating)].count;
+  if (separating > 0) {
+    absl::StrAppend(&text, "  nothing strikes in ", Counted(separating, "row"),
+                    ": the normal velocity before is not negative there\n");
+  }
   for (const BadRow& bad : summary.bad_rows) {
     absl::StrAppend(&text, "  row ", bad.row, " (line ", solved.lines[static_cast<size_t>(bad.row)], "): ", bad.field,
                     bad.field.empty() ? "" : " ", bad.description, "\n");

@@ -14,26 +14,32 @@ Event MakeEvent(EventKind kind, const Section& section, const PlanarReduction& r
   return {kind, MakeState(reduction, section)};
 }
 
-// Adds the events that begin `section`, which follows a section in the friction state `before`.
-void AddEvents(const Section& section, FrictionState before, double tau_compression, const PlanarReduction& reduction,
-               std::vector<Event>& timeline) {
-  if (section.tau == tau_compression) {
-    timeline.push_back(MakeEvent(EventKind::kCompressionEnds, section, reduction));
-  }
-  if (section.friction == before) return;
+// Adds the change of the friction state that begins a section, if it is one. A smooth contact has none.
+void AddFrictionEvent(const Problem& problem, const Section& before, const Section& section,
+                      const PlanarReduction& reduction, std::vector<Event>& timeline) {
+  if (problem.contact.mu == 0.0 || section.friction == before.friction) return;
   const EventKind kind = section.friction == FrictionState::kStick ? EventKind::kStickStarts : EventKind::kSlipStarts;
   timeline.push_back(MakeEvent(kind, section, reduction));
 }
 
-std::vector<Event> TimelineOf(const Impact& impact, const PlanarReduction& reduction) {
+std::vector<Event> TimelineOf(const Problem& problem, const Impact& impact, const PlanarReduction& reduction) {
   std::vector<Event> timeline;
   if (impact.sections.empty()) return timeline;
   timeline.push_back(MakeEvent(EventKind::kStart, impact.sections.front(), reduction));
-  for (size_t i = 1; i < impact.sections.size() && timeline.size() + 2 < kMostEvents; ++i) {
-    AddEvents(impact.sections[i], impact.sections[i - 1].friction, impact.tau_compression, reduction, timeline);
+  bool compresses = true;
+  const auto add_end_of_compression = [&](const Section& section) {
+    if (!compresses || section.tau < impact.tau_compression) return;
+    compresses = false;
+    timeline.push_back(MakeEvent(EventKind::kCompressionEnds, section, reduction));
+  };
+  for (size_t i = 1; i < impact.sections.size(); ++i) {
+    add_end_of_compression(impact.sections[i]);
+    AddFrictionEvent(problem, impact.sections[i - 1], impact.sections[i], reduction, timeline);
   }
   const Section end = {.tau = impact.tau1, .f = impact.f1, .u = impact.u1, .v = impact.v1};
+  add_end_of_compression(end);  // Without restitution.
   timeline.push_back(MakeEvent(EventKind::kRestitutionEnds, end, reduction));
+  if (timeline.size() > kMostEvents) timeline.erase(timeline.begin() + kMostEvents - 1, timeline.end() - 1);
   return timeline;
 }
 
@@ -51,7 +57,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
   // If the path overflows, not even the regime is known, so that the outcome is checked in every case.
   if (!std::isfinite(impact.u1)) return CheckFinite(outcome);
   return Complete(
-      detail, [&] { return TimelineOf(impact, reduction); }, NoPath, outcome);
+      detail, [&] { return TimelineOf(problem, impact, reduction); }, NoPath, outcome);
 }
 
 }  // namespace ricochet::compliant

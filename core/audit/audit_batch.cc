@@ -39,6 +39,9 @@ ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool i
   } else if (column.part == AuditColumnPart::kAfter) {
     rule.is_required = !has_rates;
     if (has_rates) rule.refused_for = "beside rates_after";
+  } else if (column.part == AuditColumnPart::kBefore && has_rates) {
+    // The velocities of the system after the impact follow from those before it, not from the contact's alone.
+    rule.refused_for = "beside rates_after, the velocities before are those of the scene";
   }
   return rule;
 }
@@ -167,8 +170,7 @@ absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, absl::FunctionRef<bool(
   const audit::Observation seen = ObservationAt(row);
   if (!IsValid(problem, seen)) return AuditReport{.regime = Regime::kInvalid};
   absl::StatusOr<AuditReport> report = audit::Audit(problem, seen, stopped);
-  // The velocities of the system before are those of the scene, whatever a row states for its contact.
-  if (report.ok() && !columns_.rates_after.empty() && !HasVelocityBefore(columns_)) {
+  if (report.ok() && !columns_.rates_after.empty()) {
     audit::CheckRates(reduction_, RatesAt(row), seen.uncertainty, *report);
   }
   if (report.ok() && audit::OverflowIn(*report) != nullptr) return AuditReport{.regime = Regime::kInvalid};

@@ -23,9 +23,7 @@ Intervals Times(const Eigen::MatrixXd& w, const Eigen::VectorXd& x) {
   return product;
 }
 
-// The least of (W x)_n - mu |(W x)_t| over all contacts, or less by rounding.
-double LeastParting(const Problem& problem, const Eigen::VectorXd& x) {
-  const Intervals moved = Times(problem.w, x);
+double LeastParting(const Problem& problem, const Intervals& moved) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < problem.k; ++i) {
     const Interval mu(problem.laws[At(i)].mu);
@@ -38,20 +36,26 @@ double LeastParting(const Problem& problem, const Eigen::VectorXd& x) {
 
 }  // namespace
 
+double LeastParting(const Problem& problem, const Eigen::VectorXd& v) {
+  Intervals exact;
+  for (Eigen::Index i = 0; i < v.size(); ++i) exact[At(i)] = Interval(v(i));
+  return LeastParting(problem, exact);
+}
+
 double DualBound(const Problem& problem, double root_energy, const Eigen::VectorXd& apart, const Eigen::VectorXd& gamma,
                  const DualPoint& point) {
   const Eigen::Index size = gamma.size();
   Eigen::VectorXd pi = point.pi;
-  const double least = LeastParting(problem, pi);
+  const double least = LeastParting(problem, Times(problem.w, pi));
   if (!(least >= 0.0)) {
-    const double parting = apart.size() > 0 ? LeastParting(problem, apart) : 0.0;
+    const double parting = apart.size() > 0 ? LeastParting(problem, Times(problem.w, apart)) : 0.0;
     const double rounding = kEpsilon * (problem.w.cwiseAbs() * pi.cwiseAbs()).maxCoeff();
     double push = parting > 0.0 ? std::max(-least, rounding) / parting : 0.0;
     bool is_inside = false;
     for (int doubling = 0; doubling < 6 && parting > 0.0 && !is_inside; ++doubling) {
       push *= 2.0;
       pi = point.pi + push * apart;
-      is_inside = LeastParting(problem, pi) >= 0.0;
+      is_inside = LeastParting(problem, Times(problem.w, pi)) >= 0.0;
     }
     if (!is_inside) pi.setZero();
   }

@@ -20,6 +20,9 @@ struct DualPoint {
   Eigen::VectorXd pi;  // kd numbers
 };
 
+// The least of v_n - mu |v_t| over all contacts, or less by rounding.
+double LeastParting(const Problem& problem, const Eigen::VectorXd& v);
+
 // `root_energy` bounds sqrt(2T). `apart` pushes all contacts apart, or is empty: where rounding leaves pi outside its
 // cone, a little of it is added, or pi is 0 if there is none.
 double DualBound(const Problem& problem, double root_energy, const Eigen::VectorXd& apart, const Eigen::VectorXd& gamma,

@@ -57,6 +57,8 @@ bool IsEndless(const Pair& pair, double approach) {
   const double roots = std::sqrt(e1) + std::sqrt(e2);
   const double excess = product - roots * roots;
   if (e1 * e2 == 0.0 ? !(excess > 0.0) : !(excess >= 0.0)) return false;
+  // Then each approaches as the other parts, and the last condition is an equality.
+  if (pair.is_singular) return true;
   // The eigenvalues of two impacts, whose discriminant is a product.
   const double trace = product - e1 - e2;
   const double larger = 0.5 * (trace + std::sqrt(excess * (trace + 2.0 * std::sqrt(e1 * e2))));

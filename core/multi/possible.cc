@@ -7,6 +7,7 @@
 #include "core/multi/dual_bound.h"
 #include "core/multi/dual_search.h"
 #include "core/multi/faces.h"
+#include "core/numerics/interval.h"
 
 namespace ricochet::multi {
 namespace {
@@ -14,10 +15,23 @@ namespace {
 // A bound this close to the maximum on a face, over its scale, needs no search.
 constexpr double kCloseEnough = 1e-9;
 
+// Bounds on gamma . v.
+Range ProductOf(const Eigen::VectorXd& gamma, const Eigen::VectorXd& v) {
+  Interval sum(0.0);
+  for (Eigen::Index i = 0; i < v.size(); ++i) sum = sum + Interval(gamma(i)) * Interval(v(i));
+  return {.lower = sum.lower, .upper = sum.upper};
+}
+
 }  // namespace
 
 std::vector<Range> FindPossible(const Problem& problem, const EnergyMetric& metric, const Eigen::VectorXd& apart,
                                 const std::vector<Eigen::VectorXd>& gammas, absl::FunctionRef<bool()> stopped) {
+  // Where each contact parts faster than it slides times friction, every impulse takes energy.
+  if (LeastParting(problem, problem.v) > 0.0) {
+    std::vector<Range> unchanged;
+    for (const Eigen::VectorXd& gamma : gammas) unchanged.push_back(ProductOf(gamma, problem.v));
+    return unchanged;
+  }
   std::vector<Maximum> maxima(2 * gammas.size());
   if (problem.d == 2 && problem.k <= kMostContactsOfFaces) maxima = MaximaOnFaces(problem, metric, gammas);
   std::vector<Range> ranges;

@@ -21,8 +21,11 @@ DrivenFields::DrivenFields(const std::vector<std::string>& paths, NameOf name_of
     for (const std::string& target : field->sets()) {
       const auto [other, is_new] = driven_by.emplace(target, i);
       if (is_new) continue;
-      violations_.push_back(MakeViolation(
-          place, Found(paths[i]), absl::StrCat("not drive ", target, ", which ", name_of(other->second), " drives")));
+      const std::string& driver = paths[other->second];
+      const std::string also = driver == paths[i] ? "" : absl::StrCat(", ", driver, ",");
+      violations_.push_back(
+          MakeViolation(place, Found(paths[i]),
+                        absl::StrCat("not drive ", target, ", which ", name_of(other->second), also, " drives")));
     }
     // An angle sets two numbers from the base scene's distance, so their base values must be right.
     if (paths[i] != kPhi) {

@@ -31,8 +31,8 @@ void Put(const std::vector<Code>& codes, int64_t first, Codes& to) {
                  [](Code code) { return static_cast<uint8_t>(code); });
 }
 
-// Counts the rows that have no numbers, those that are inadmissible, those whose impact has no end or no solution, and
-// those that did not converge.
+// Counts the rows that have no numbers, those that are inadmissible, those whose impact has no end or no solution, those
+// that did not converge, and those in which nothing strikes.
 py::tuple Counts(const Codes& regimes, const Codes& statuses) {
   const auto count = [&statuses](RowStatus status) {
     return std::count(statuses.data(), statuses.data() + statuses.size(), static_cast<uint8_t>(status));
@@ -41,8 +41,10 @@ py::tuple Counts(const Codes& regimes, const Codes& statuses) {
     const auto regime = static_cast<Regime>(code);
     return regime != Regime::kInvalid && !HasEnd(regime);
   });
+  const auto separating =
+      std::count(regimes.data(), regimes.data() + regimes.size(), static_cast<uint8_t>(Regime::kSeparating));
   return py::make_tuple(count(RowStatus::kInvalid) + count(RowStatus::kNotRepresentable),
-                        count(RowStatus::kInadmissible), without_end, count(RowStatus::kNotConverged));
+                        count(RowStatus::kInadmissible), without_end, count(RowStatus::kNotConverged), separating);
 }
 
 absl::Span<const double> SpanOf(py::handle column) {

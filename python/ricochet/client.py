@@ -38,6 +38,7 @@ _STATUSES = _core.enum_names("RowStatus")
 _VERDICTS = _core.enum_names("LimitCheck.Verdict")
 _WITHOUT_NUMBERS = [_STATUSES.index(name) for name in ("INVALID", "NOT_REPRESENTABLE")]
 _WITHOUT_END = [_REGIMES.index(name) for name in ("WEDGED", "NO_SOLUTION")]
+_COUNTS = ("invalid", "inadmissible", "without_end", "not_converged", "separating")
 _MOST_AUDIT_ROWS = 8192  # In one call, where the server allows as many.
 _clients: "weakref.WeakSet[Client]" = weakref.WeakSet()
 
@@ -297,7 +298,8 @@ class Client:
             scene: the contact; its velocity is used for rows that state none.
             columns: arrays with the names of ricochet.v1.AuditColumns, such as ``tangential_after_m_s`` and
                 ``normal_after_m_s``, m/s, all equally long or single numbers; ``rates_after`` is a list with an array
-                for each velocity of the system, in the order of ``audit``. A pandas frame will do.
+                for each velocity of the system, in the order of ``audit``, whose velocities before are then those of
+                the scene. A pandas frame will do.
 
         Returns:
             A table with every number of ricochet.v1.AuditReport; ``limits.sharp.verdict`` and its like are codes.
@@ -433,7 +435,8 @@ class Client:
         given = names.by_full_name(inputs, scene._fields(), "inputs")
         if not given:
             values.refuse("inputs", "is empty: must have at least one column")
-        arrays = _equally_long({name: np.atleast_1d(values.column(given[name], name)) for name in given})
+        arrays = _equally_long(
+            {name: np.atleast_1d(values.column(given[name], name)) for name in given}, scene._fields())
         wanted = names.full_columns(values.names(columns, "columns"), scene._columns(), scene._fields())
         arguments = {"fields": list(arrays), "columns": wanted, **arguments}
         solved = self._solver.solve_batch(scene, arguments, list(arrays.values()))
@@ -444,10 +447,7 @@ class Client:
             axes={name: array.copy() for name, array in arrays.items()},
             summary=Record(
                 rows=len(regimes),
-                invalid=counts[0],
-                inadmissible=counts[1],
-                without_end=counts[2],
-                not_converged=counts[3],
+                **dict(zip(_COUNTS, counts)),
                 bad_rows=[
                     Record(row=row, status=_STATUSES[status], field=field, description=description)
                     for row, status, field, description in bad_rows
@@ -533,8 +533,7 @@ class Client:
             axes=dict(zip(given, coordinates)),
             is_grid=not zip_axes and bool(given),
             summary=Record(
-                points=len(regimes), by_regime=codes["regime"].counts(), invalid=counts[0], inadmissible=counts[1],
-                without_end=counts[2], not_converged=counts[3]),
+                points=len(regimes), by_regime=codes["regime"].counts(), **dict(zip(_COUNTS, counts))),
             attrs={"Conventions": "CF-1.8", "title": _TITLE, **attrs},
         )
         _warn_of_rows(table)
@@ -796,11 +795,12 @@ def _row_count(lengths: list[int]) -> int:
     return max((length for length in lengths if length != 1), default=min(len(lengths), 1))
 
 
-def _equally_long(arrays: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+def _equally_long(arrays: dict[str, NDArray[np.float64]], known: Iterable[str]) -> dict[str, NDArray[np.float64]]:
     rows = _row_count([len(array) for array in arrays.values()])
     wrong = [
         Violation(name, f"has shape {array.shape}: must be one number, or {rows} as the longest array"
-                  + (f"; the columns of a matrix are stated as {name}[0], {name}[1], ..." if array.ndim > 1 else ""))
+                  + (f"; the columns of a matrix are stated as {name}[0], {name}[1], ..."
+                     if array.ndim > 1 and f"{name}[0]" in known else ""))
         for name, array in arrays.items()
         if array.ndim != 1 or len(array) not in (1, rows)
     ]

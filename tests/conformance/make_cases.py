@@ -20,7 +20,7 @@ import scenes
 from exact_impacts import LAWS, follow, mpf, orders, solve_linear, times
 from mpmath import mp, nstr
 
-VERSION = 2
+VERSION = 3
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'conformance')
 FILE, VERSIONS = os.path.join(FOLDER, 'impacts.json'), os.path.join(FOLDER, 'versions.txt')
 DIGITS = 17

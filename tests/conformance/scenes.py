@@ -150,7 +150,7 @@ def frictionless():
            20, 0, 0.5)
     single('rod-end-without-friction', family, 'A rod strikes with one end and starts to turn.', STRONGE, *TILTED, (0, -1), 0,
            0, 0.5)
-    single('rod-end-elastic', family, 'The same at a coefficient of 1: the energy stays.', STRONGE, *TILTED, (0.5, -1), 1, 0, 1)
+    single('rod-end-elastic', family, 'The same with slip and a coefficient of 1: the energy stays.', STRONGE, *TILTED, (0.5, -1), 1, 0, 1)
 
 
 def sliding():
@@ -165,7 +165,7 @@ def sliding():
     for name, velocity, e in (('left', (-3, -1), 0.5), ('right', (3, -1), 0.5), ('elastic', (3, -1), 1), ('plastic', (3, -1), 0)):
         single(f'rod-slides-{name}', family, 'A rod slides throughout: slip and normal velocity are coupled.', WANG, *TILTED,
                velocity, 0, 0.2, e)
-    single('rod-slides-fast-rotation', family, 'The slip comes from the rotation alone.', WANG, *FLAT, (0, -2), -6, 0.1, 0.6)
+    single('rod-slides-fast-rotation', family, 'The slip comes from the rotation alone, and turns round in compression.', WANG, *FLAT, (0, -2), -6, 0.1, 0.6)
 
 
 def sticking():
@@ -197,8 +197,9 @@ def reversal():
             ('rod-reverses-mirrored', (-0.35, -0.35), 0.2, 0.3, 0.5),
             ('rod-starts-to-slip', (0.35, -0.35), 0, 0.3, 0.5),
             ('flat-rod-reverses', (0.45, -0.2), -0.3, 0.4, 0.7)):
-        single(name, family, 'Slip stops and goes on the other way: one impulse for the whole impact cannot say that.', WANG, 1,
-               ROD, offset, (speed, -1), 0, friction, e)
+        shows = ('Slip stops and goes on the other way: one impulse for the whole impact cannot say that.' if speed else
+                 'A contact without slip is set slipping, because friction is too weak for the coupling.')
+        single(name, family, shows, WANG, 1, ROD, offset, (speed, -1), 0, friction, e)
     single('flat-rod-reverses-by-rotation', family, 'The same with the rotation before the impact alone.', STRONGE, 1, ROD,
            (0.45, -0.2), (0, 0), -3, 0.25, 0.6)
 
@@ -276,7 +277,7 @@ def pairs():
          (*ball, (0, -1), 0), (*under, (0, 0), 50), 0.06, 0.95)
     pair('billiard-cut', 'A cut shot: the object ball is thrown off its line by friction.', 'github.com/ekiefl/pooltool issue 153',
          (0.17, 0.000055, (0, -0.028575), (1.5, -1), 0), (0.17, 0.000055, (0, 0.028575), (0, 0), 0), 0.06, 0.95)
-    pair('two-rods', 'Both bodies turn; the contact slides.', STRONGE, (1, 0.1, (-0.3, 0), (1, -2), 0), (2, 0.1, (0.2, 0.3), (0, 0), 0),
+    pair('two-rods', 'Both bodies turn; slip stops in compression.', STRONGE, (1, 0.1, (-0.3, 0), (1, -2), 0), (2, 0.1, (0.2, 0.3), (0, 0), 0),
          0.4, 0.5)
     pair('two-rods-reverse', 'Slip between two rods turns round.', STRONGE, (1, ROD, (0.35, -0.35), (-0.1, -1), 0),
          (1, ROD, (-0.2, 0.4), (0, 0), 0), 0.1, 0.7)
@@ -312,12 +313,12 @@ def space():
     solid('ball-with-spin-on-a-cushion', 'A billiard ball with side and top spin strikes a cushion; the normal is its z axis.',
           'github.com/ekiefl/pooltool issue 153; Y. Han (2005), dynamics in carom and three cushion billiards', 1,
           (0.004, 0.004, 0.004), (0, 0.02, -0.098), (0.4, 0, -0.6), (2, -1, 3), 0.14, 0.85)
-    solid('box-corner-slides', turning, KELLER, *box, (1, 0.6, -1), (0, 0, 0), 0.2, 0.6)
+    solid('box-corner-slides', 'Slip turns and grows: friction has no constant direction.', KELLER, *box, (1, 0.6, -1), (0, 0, 0), 0.2, 0.6)
     solid('box-corner-turns', turning, KELLER, *box, (-0.6, 0.5, -1), (0, 0, 0), 0.3, 0.6)
     solid('box-corner-elastic', turning, KELLER, *box, (-0.6, 0.5, -1), (0, 0, 0), 0.3, 1)
     solid('box-corner-plastic', turning, KELLER, *box, (0.5, -0.8, -1), (0.4, 0.3, 0), 0.25, 0)
     solid('box-corner-sticks', 'Slip turns, stops and does not come back.', KELLER, *box, (-0.6, 0.5, -1), (0, 0, 0), 0.9, 0.6)
-    solid('box-corner-slips-again', 'Slip turns, stops, and starts again in another direction.', KELLER, *box, (0, 0, -1), (0, 0, 0),
+    solid('box-corner-slips-again', 'A contact without slip is set slipping, in the direction that the coupling gives it.', KELLER, *box, (0, 0, -1), (0, 0, 0),
           0.2, 0.6)
     solid('plate-corner', 'A plate strikes with a corner: W is far from isotropic.', KELLER, 1, (0.02, 0.03, 0.05), (0.3, 0.2, -0.05),
           (0.8, -0.4, -1), (0, 0, 0), 0.35, 0.5)

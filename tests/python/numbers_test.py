@@ -240,6 +240,12 @@ class BoundsAndAudits(unittest.TestCase):
         self.assertEqual([table.codes["regime"][row] for row in (1, 2)], ["REBOUND", "INVALID"])
         self.assertEqual((table.summary.rows, table.summary.invalid), (3, 1))
 
+    def test_rows_in_which_nothing_strikes_are_counted(self):
+        batch = ricochet.solve_batch(PENDULUM, {"omega": [-1.0, 1.0, 2.0]}, ["newton"])
+        self.assertEqual((batch.summary.rows, batch.summary.separating), (3, 2))
+        sweep = ricochet.sweep(PENDULUM, {"omega": [-1.0, 1.0]}, ["rates_after[0]"], form="table")
+        self.assertEqual(sweep.summary.separating, 1)
+
     def test_an_audit_of_many_rows_is_asked_in_parts(self):
         rates = np.linspace(0.1, 0.7, 10_000)
         table = ricochet.audit_batch(PENDULUM, {"rates_after": [rates]})

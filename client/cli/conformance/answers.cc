@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/io/csv_table.h"
@@ -33,9 +34,10 @@ absl::Status Add(const std::string& where, const std::string& name, const std::s
                                                    " numbers: must have ", coordinates.size(), ", ",
                                                    absl::StrJoin(coordinates, ", ")));
   }
-  if (!std::all_of(velocity.begin(), velocity.end(), [](double x) { return std::isfinite(x); })) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(where, ".velocity_after of ", name, ": must have finite numbers; leave out a case without any"));
+  // Below 1e100 neither energies nor impulses overflow.
+  if (!std::all_of(velocity.begin(), velocity.end(), [](double x) { return std::fabs(x) < 1e100; })) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        where, ".velocity_after of ", name, ": must have numbers of a size below 1e100; leave out a case without any"));
   }
   all.answers.push_back(
       {.asked = *asked,
@@ -93,6 +95,8 @@ absl::Status ParseWithoutTwins(const std::string& text, const std::string& name,
   };
   try {
     json = Json::parse(text, note);
+    // The parser takes a NUL for the end of the text.
+    if (absl::StrContains(text, '\0')) return absl::InvalidArgumentError(absl::StrCat(name, " has a NUL byte"));
     if (is_deep) return absl::InvalidArgumentError(absl::StrCat(name, " nests more than 100 levels deep"));
     if (twin.empty()) return absl::OkStatus();
     return absl::InvalidArgumentError(absl::StrCat(name, ": ", twin, " is given twice in one object"));

@@ -33,7 +33,7 @@ struct CaseGrade {
   std::vector<std::string> obeyed;  // All laws, orders or springs within the tolerance.
   bool other_order = false;         // The numbers are those of a right answer, but in another order.
   // `energy` is in J; `approach` in m/s. The value of `cone` is the largest velocity, in m/s or rad/s, that the nearest
-  // impulse within the cones leaves unexplained, and its excess the root of twice the kinetic energy of all of them.
+  // impulse within the cones leaves unexplained, and its excess the root of the sum of all their squares.
   // The value of `symmetry` is the largest difference to the mirror image. Broken limits are Verdict::kBroken.
   LimitCheck energy, approach, cone, symmetry;
 };
@@ -49,7 +49,8 @@ struct Grade {
   bool AllRight() const { return RightCases() == static_cast<int>(cases.size()); }
 };
 
-// The law of the demand; else each answer's own; else the one that most answers of one contact obey.
+// The law of the demand; else each answer's own; those without one are judged by the one that most answers of one
+// contact obey.
 Grade GradeOf(const SimulatorAnswers& answers, const GradeDemand& demand);
 
 }  // namespace ricochet::cli

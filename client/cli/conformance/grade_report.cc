@@ -31,26 +31,31 @@ std::string LawText(const std::string& law) {
   return law == "energetic" ? "the energetic law" : law;
 }
 
+// Returns a number with the digits that the rounding of the checks leaves.
+std::string TwoDigits(double value) { return absl::StrFormat("%.2g", value); }
+
 // Returns in words what is wrong with a case; empty if nothing is.
 std::string Complaint(const CaseGrade& one) {
   if (!one.answered) return "no answer";
   std::vector<std::string> parts;
   if (!one.right) {
-    parts.push_back(absl::StrFormat("%.2g from %s", one.error, LawText(one.law)));
+    parts.push_back(absl::StrCat(TwoDigits(one.error), " from ", LawText(one.law)));
     if (!one.obeyed.empty()) parts.push_back(absl::StrCat("obeys ", absl::StrJoin(one.obeyed, ", ")));
   }
   if (one.other_order) {
     parts.push_back(
         absl::StrCat("has the right numbers in another order than ", absl::StrJoin(one.asked->coordinates, ", ")));
   }
-  if (Broken(one.energy)) parts.push_back(BrokenLimitText(AuditLimit::kEnergy, one.energy.excess));
-  if (Broken(one.approach)) parts.push_back(BrokenLimitText(AuditLimit::kPenetration, one.approach.excess));
+  if (Broken(one.energy)) parts.push_back(BrokenLimitText(AuditLimit::kEnergy, TwoDigits(one.energy.excess)));
+  if (Broken(one.approach)) {
+    parts.push_back(BrokenLimitText(AuditLimit::kPenetration, TwoDigits(one.approach.excess)));
+  }
   if (Broken(one.cone)) {
     parts.push_back(absl::StrCat("no impulse within the friction cones explains it, the nearest is ",
-                                 Rounded(one.cone.value), " away"));
+                                 TwoDigits(one.cone.value), " away"));
   }
   if (Broken(one.symmetry)) {
-    parts.push_back(absl::StrCat("is no mirror image of itself, by ", Rounded(one.symmetry.value)));
+    parts.push_back(absl::StrCat("is no mirror image of itself, by ", TwoDigits(one.symmetry.value)));
   }
   return absl::StrJoin(parts, "; ");
 }
@@ -119,12 +124,13 @@ std::string LawsText(const Grade& grade) {
   const bool differ = std::any_of(grade.cases.begin(), grade.cases.end(), [&grade](const CaseGrade& one) {
     return one.answered && one.asked->HasOneContact() && one.law != grade.law;
   });
-  return differ ? "the laws that the answers state" : LawText(grade.law);
+  const std::string general = LawText(grade.law);
+  if (!grade.law_found) return differ ? "the laws that the answers state" : general;
+  return absl::StrCat(differ ? "the laws that answers state, else by " : "", general, ", which most answers obey");
 }
 
 std::string Heading(const Grade& grade) {
-  return absl::StrCat(grade.simulator, ": ", GradeVerdict(grade), ", by ", LawsText(grade),
-                      grade.law_found ? ", which most answers obey" : "", ".\n");
+  return absl::StrCat(grade.simulator, ": ", GradeVerdict(grade), ", by ", LawsText(grade), ".\n");
 }
 
 std::string Origin() {
@@ -202,7 +208,8 @@ std::string GradeJson(const Grade& grade) {
                       {"right_cases", grade.RightCases()},
                       {"all_right", grade.AllRight()},
                       {"cases", cases}};
-  return whole.dump(2) + "\n";
+  // The name of a file need not be UTF-8.
+  return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string GradePage(const Grade& grade) {

@@ -46,6 +46,8 @@ constexpr std::pair<const char*, const char*> kRequestFlags[] = {{"relative_tole
                                                                  {"unknowns[", "--unknown"},
                                                                  {"loss", "--loss"},
                                                                  {"force_intervals", "--force-history"},
+                                                                 {"history_intervals", "--history"},
+                                                                 {"certified_digits", "--certified"},
                                                                  {"both_ends", "--both-ends"},
                                                                  {"rates", "--observed-rate"},
                                                                  {"stiffness_range.", "--stiffness-ratio"},

@@ -104,6 +104,9 @@ absl::StatusOr<CsvReader> CsvReader::Open(std::istream& stream, const std::strin
   const absl::StatusOr<bool> has_header = reader.NextLine();
   // In UTF-16 quotes mean nothing yet.
   if (absl::Status status = RefuseUtf16(reader.line_, name); !status.ok()) return status;
+  if (absl::StartsWith(reader.line_, "\x93NUMPY")) {
+    return absl::InvalidArgumentError(absl::StrCat(name, " is an array of NumPy: must be CSV with a header"));
+  }
   if (!has_header.ok()) return has_header.status();
   if (!*has_header) return absl::InvalidArgumentError(absl::StrCat(name, " has no header"));
   for (const auto& [separator, plural] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {

@@ -55,7 +55,7 @@ std::string Heading(const AuditResponse& response) {
   for (const LimitName& name : kLimits) {
     const LimitCheck& check = report[name.limit];
     if (check.verdict != Verdict::kBroken) continue;
-    absl::StrAppend(&text, "  ", BrokenLimitText(name.limit, check.excess));
+    absl::StrAppend(&text, "  ", BrokenLimitText(name.limit, Rounded(check.excess)));
     if (name.limit == AuditLimit::kEnergy && response.contact_energy_j > 0.0) {
       absl::StrAppendFormat(&text, ", %+.4g %% of the contact's kinetic energy",
                             100.0 * check.excess / response.contact_energy_j);
@@ -120,9 +120,9 @@ std::string FirstText(const Tally& tally) { return tally.count == 0 ? "" : absl:
 
 }  // namespace
 
-std::string BrokenLimitText(AuditLimit limit, double excess) {
+std::string BrokenLimitText(AuditLimit limit, const std::string& excess) {
   for (const LimitName& name : kLimits) {
-    if (name.limit == limit) return absl::StrCat(name.broken, Rounded(excess), name.unit);
+    if (name.limit == limit) return absl::StrCat(name.broken, excess, name.unit);
   }
   return "";
 }
@@ -187,7 +187,7 @@ std::string AuditComplaint(const AuditReport& report, const std::string& invalid
   for (const LimitName& name : kLimits) {
     const LimitCheck& check = report[name.limit];
     if (check.verdict == Verdict::kBroken) {
-      complaints.push_back(BrokenLimitText(name.limit, check.excess));
+      complaints.push_back(BrokenLimitText(name.limit, Rounded(check.excess)));
     }
   }
   if (report.unexplained) {

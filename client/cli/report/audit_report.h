@@ -11,7 +11,7 @@
 namespace ricochet::cli {
 
 // Returns in words by how much a limit is broken: "the kinetic energy grows by 0.1 J".
-std::string BrokenLimitText(AuditLimit limit, double excess);
+std::string BrokenLimitText(AuditLimit limit, const std::string& excess);
 
 // Returns tables with units, to six digits. `directions` is the number of tangential directions, 1 or 2.
 std::string AuditText(const AuditResponse& response, size_t directions);

@@ -428,6 +428,9 @@ std::string WhatHappens(const Outcome& outcome) {
   const bool may_have_spring =
       outcome.plan.model == Model::kCompliant ||
       (outcome.plan.model == Model::kFiniteDuration && outcome.contact_velocity_after.tangential_m_s[0] != 0.0);
+  if (outcome.plan.model == Model::kCompliant && outcome.regime == Regime::kSliding) {
+    return "Sliding: the contact particle, which the tangential spring holds, never sticks.";
+  }
   const bool on_spring = may_have_spring && (outcome.regime == Regime::kStickInCompression ||
                                              outcome.regime == Regime::kStickInRestitution);
   return absl::StrCat(RegimeSentence(outcome.regime), on_spring ? " Its tangential spring moves it on." : "");

@@ -17,6 +17,9 @@ namespace {
 constexpr double kMostCount = 9007199254740992.0;  // 2^53: every whole number up to here is a double.
 constexpr double kYearMs = 365.0 * 24 * 3600 * 1000;
 
+constexpr char kNumberRule[] = "be a number such as 0.1 or 1e-3, or a fraction such as 1/3";
+constexpr char kRangeRule[] = "be 0, or a number of a size from 4.95e-324 to 1.7976931348623157e+308";
+
 // Puts the double nearest to `text` into `value`, and returns the rule that the text breaks. The option parser itself
 // would use strtold, which rounds twice.
 std::string ReadDecimal(absl::string_view text, double& value) {
@@ -25,11 +28,11 @@ std::string ReadDecimal(absl::string_view text, double& value) {
   if (absl::StartsWith(text, "+") && !absl::StartsWith(text, "+-")) ++first;
   const auto [end, error] = std::from_chars(first, last, value);
   if (end == last && error == std::errc::result_out_of_range) {
-    return "be 0, or a number of a size from 4.95e-324 to 1.7976931348623157e+308";
+    return kRangeRule;
   }
   if (error == std::errc() && end == last) return "";
   if (absl::StrContains(text, ',')) return "be a number with a decimal point, not a comma";
-  return "be a number such as 0.1 or 1e-3, or a fraction such as 1/3";
+  return kNumberRule;
 }
 
 // Converts a fraction of degrees. It rounds to a double once, so that 180 degrees are the one nearest to pi.
@@ -57,7 +60,11 @@ std::string ReadNumber(const std::string& text, Spelling spelling, double& value
   if (rule.empty() && slash != absl::string_view::npos) rule = ReadDecimal(number.substr(slash + 1), denominator);
   if (!rule.empty()) return rule;
   if (denominator == 0.0) return "have a denominator other than 0";
+  const bool is_zero = value == 0.0;
+  const bool is_fraction = slash != absl::string_view::npos;
+  if (is_fraction && !(std::isfinite(value) && std::isfinite(denominator))) return kNumberRule;
   value = in_degrees ? Radians(value, denominator) : value / denominator;
+  if (is_fraction && (!std::isfinite(value) || (value == 0.0 && !is_zero))) return kRangeRule;
   return "";
 }
 

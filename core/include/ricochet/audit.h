@@ -43,7 +43,9 @@ struct AuditColumns {
   std::vector<double> normal_after_m_s = {};
   std::vector<double> friction = {};  // Both coefficients of friction; empty means the scene's, at each approach speed.
   std::vector<double> velocity_uncertainty_m_s = {};  // Empty means 0.
-  std::vector<std::vector<double>> rates_after = {};  // One column for each velocity, in the order of ObservedRates.
+  // One column for each velocity, in the order of ObservedRates; refused beside a velocity before the impact, which is
+  // then the scene's.
+  std::vector<std::vector<double>> rates_after = {};
   friend bool operator==(const AuditColumns&, const AuditColumns&) = default;
 };
 

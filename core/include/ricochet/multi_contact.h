@@ -124,7 +124,7 @@ enum class MultiContactEnd {
   kEndless = 2,          // It takes infinitely many impacts; the numbers are their limit, which is proved.
   kEndlessEstimate = 3,  // The same, but the limit is where the speeds of approach fell to the rounding of doubles.
   kWedged = 4,           // Contacts jam: forces stay for ever, and only the velocities are an answer.
-  kBudgetUsedUp = 5,     // The numbers are those of the state that was reached.
+  kBudgetUsedUp = 5,     // The numbers are those of the state that was reached, or to which the sequence came back.
   kUndetermined = 6,     // Two plastic contacts let go at one instant, and the limit depends on how plastic each is.
 };
 

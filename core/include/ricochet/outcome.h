@@ -187,6 +187,7 @@ enum class NoteKind {
   kLargeAngle = 2,       // An angle is beyond a full turn, as a number of degrees would be.
   kManySolutions = 3,    // Other impulses solve the same impact; the answer holds one of them.
   kUndetermined = 4,     // A part of the motion does not depend on the contact, or cannot be known from it.
+  kTimelineCut = 5,      // The timeline has its first events and the end, but not those between.
 };
 
 // Something that a caller should know about an answer and that no number of it says.

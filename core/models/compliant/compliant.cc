@@ -96,13 +96,18 @@ ImpactErrors NumberErrorsOf(const PlanarProblem& problem, const Units& units, co
   scaled.tau_compression = path.compression_end.tau;
   scaled.tau1 = path.end.tau;
   scaled.work_normal_compression = -stored;
-  errors.v = path.v_error + rounding * std::fabs(path.end.v);
+  // A coefficient that is computed as 0 changes velocities in proportion to itself.
+  const double unseen = problem.coefficient < kLeastEnergetic
+                            ? 16.0 * problem.coefficient * force * (1.0 + contact.mu) *
+                                  (1.0 + contact.wtt + std::fabs(contact.wtn) + contact.wnn)
+                            : 0.0;
+  errors.v = path.v_error + rounding * std::fabs(path.end.v) + unseen;
   errors.tau_compression = first.impulses.tau;
   errors.tau = last.impulses.tau;
   errors.f = last.impulses.f;
   SetCoefficientErrors(scaled, problem.v0, RestitutionLaw::kEnergetic, problem.coefficient, errors);
   constexpr double kSmallest = 0x1p-1073;
-  errors.u = units.Speed(path.u_error + rounding * std::fabs(path.end.u)) + kSmallest;
+  errors.u = units.Speed(path.u_error + rounding * std::fabs(path.end.u) + unseen) + kSmallest;
   errors.v = units.Speed(errors.v) + kSmallest;
   errors.tau_compression = units.Impulse(first.impulses.tau) + kSmallest;
   errors.tau = units.Impulse(last.impulses.tau) + kSmallest;

@@ -28,6 +28,8 @@ FrictionState CompliantFrictionAfter(const ScaledContact& contact, const Mode& m
     return ParticleAcceleration(contact, mode, y, SlipSign(mode.friction)) < 0.0 ? FrictionState::kStick
                                                                                  : mode.friction;
   }
+  // A spring that is not stretched cannot overcome friction: the guard fell by rounding where N is next to nothing.
+  if (ForcesAt(contact, mode, y).tangential == 0.0) return mode.friction;
   // The upper side is that of F > 0, which acts on a particle that slides backwards.
   const double direction = fallen == kUpper ? -1.0 : 1.0;
   return ParticleSlides(contact, mode, y, direction) ? SlipTowards(direction) : mode.friction;

@@ -48,7 +48,17 @@ TEST_F(CliAuditData, ACellThatIsNotFiniteIsNamed) {
               HasSubstr("rates_after_rad_s[1] = inf: must be finite\n"));
 }
 
-TEST_F(CliAuditData, TabsAndUtf16AreNamed) {
+// The velocities of the system after the impact follow from those before it, which a contact velocity does not tell.
+TEST_F(CliAuditData, RatesStandBesideNoVelocityOfTheContact) {
+  for (const char* column : {"tangential_m_s", "normal_m_s", "tangential_after_m_s", "normal_after_m_s"}) {
+    EXPECT_THAT(Audit(std::string("rates_after_rad_s[0],rates_after_rad_s[1],") + column + "\n0,1,-1\n").err,
+                HasSubstr(std::string("columns.") + column + " is set: must not be beside rates_after"));
+  }
+}
+
+TEST_F(CliAuditData, TabsUtf16AndArraysAreNamed) {
+  EXPECT_THAT(Audit(std::string("\x93NUMPY\x01", 7) + std::string(1, '\0') + "v\n\"\n").err,
+              HasSubstr("is an array of NumPy: must be CSV with a header"));
   EXPECT_THAT(Audit("normal_after_m_s\tfriction\n0.1\t0\n").err, HasSubstr("separates its columns by tabs: must use"));
   EXPECT_THAT(Audit(std::string("\xFF\xFEn\0o\0", 6)).err, HasSubstr("is in UTF-16: must be in UTF-8"));
 }

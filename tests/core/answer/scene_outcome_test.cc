@@ -20,6 +20,7 @@
 namespace ricochet {
 namespace {
 
+using testing::Contains;
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -598,6 +599,52 @@ TEST(SceneOutcomeTest, SpringsAgreeWithRigidContactBesideTheRange) {
     }
   }
   EXPECT_GT(jams, 3);
+}
+
+// With a tangential spring, as the numbers Wtt, Wtn, Wnn, u0, mu and eta say; v0 = -1.
+Outcome OnSpring(const std::array<double, 6>& numbers, double ratio_squared) {
+  const auto [tt, tn, nn, u0, mu, eta] = numbers;
+  Scene scene = With(PlanarContact{tt, tn, nn, u0, -1.0}, mu, EnergeticCoefficient{eta});
+  scene.compliance = Compliance{.tangential_ratio_squared = ratio_squared};
+  const absl::StatusOr<SolveResponse> response =
+      LocalSolver().Solve({.scene = scene, .demand = {.required = {Effect::kTangentialCompliance}}});
+  EXPECT_TRUE(response.ok()) << response.status();
+  return response.ok() ? response->outcome : Outcome();
+}
+
+TEST(SceneOutcomeTest, CompressionOnASpringEndsOnce) {
+  using enum EventKind;
+  const auto kinds = [](const Outcome& outcome) {
+    std::vector<EventKind> kinds;
+    for (const Event& event : outcome.timeline) kinds.push_back(event.kind);
+    return kinds;
+  };
+  const Outcome plastic = OnSpring({3.5, 0.4, 1.0, 0.7, 0.5, 0.0}, 1.2);
+  EXPECT_THAT(kinds(plastic), ElementsAre(kStart, kStickStarts, kCompressionEnds, kRestitutionEnds));
+  EXPECT_EQ(plastic.timeline[2].state.normal_impulse_n_s, plastic.impulse.normal_total_n_s);
+  for (const double eta : {1e-60, 1e-30, 1e-17, 1e-16, 1e-15}) {
+    EXPECT_THAT(kinds(OnSpring({2.0, 0.3, 1.0, 0.2, 0.5, eta}, 1.2)), Contains(kCompressionEnds).Times(1)) << eta;
+  }
+  EXPECT_THAT(kinds(OnSpring({1.2, 0.6, 1.0, -0.3, 0.0, 0.5}, 1.2)),
+              ElementsAre(kStart, kCompressionEnds, kRestitutionEnds));
+}
+
+TEST(SceneOutcomeTest, ATimelineThatIsCutSaysSo) {
+  const Outcome outcome = OnSpring({3.5, 0.0, 1.0, 1.0, 0.9, 0.6}, 1e-9);
+  EXPECT_THAT(outcome.timeline, SizeIs(8192));
+  EXPECT_EQ(outcome.timeline.back().kind, EventKind::kRestitutionEnds);
+  ASSERT_THAT(outcome.notes, SizeIs(1));
+  EXPECT_EQ(outcome.notes[0].kind, NoteKind::kTimelineCut);
+  EXPECT_THAT(OnSpring({3.5, 0.0, 1.0, 1.0, 0.9, 0.6}, 1e-6).notes, IsEmpty());
+}
+
+// Newton's coefficient is .9728 of a small energetic one here (mode by mode, in 36 digits).
+TEST(SceneOutcomeTest, ACoefficientThatIsTooSmallToComputeIsInTheErrors) {
+  const Outcome outcome = OnSpring({2.0, 0.3, 1.0, 0.2, 0.5, 1e-100}, 1.2);
+  ASSERT_TRUE(outcome.errors.newton.has_value() && outcome.errors.normal_m_s.has_value());
+  EXPECT_GE(*outcome.errors.newton, std::fabs(0.9728e-100 - outcome.coefficients.newton));
+  EXPECT_LE(*outcome.errors.newton, 1e-97);
+  EXPECT_GE(*outcome.errors.normal_m_s, std::fabs(0.9728e-100 - outcome.contact_velocity_after.normal_m_s));
 }
 
 // A slider on a guide along n: the surface passes below it, and friction rubs without moving it.

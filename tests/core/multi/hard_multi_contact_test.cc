@@ -131,6 +131,23 @@ TEST(HardMultiContactTest, ABallInASlotComesToRest) {
   EXPECT_NEAR(springs.v(1), 0.0, springs.ErrorOf(slot, 1) + 1e-12);
 }
 
+// The condition for a sequence without end holds with equality in a slot, which no rounding may decide.
+TEST(HardMultiContactTest, EverySlotHasAProvedLimit) {
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 20; ++j) {
+      const double e1 = 0.05 * i, e2 = 0.05 * j;
+      if (e1 == 0.0 || e2 == 0.0) continue;
+      const Orders orders = FindOrders(Slot(e1, e2), kNever);
+      ASSERT_EQ(orders.outcomes.size(), 1U);
+      const Attained& rest = orders.outcomes.front().attained;
+      EXPECT_EQ(rest.end, MultiContactEnd::kEndless) << e1 << " " << e2;
+      EXPECT_TRUE(rest.error_is_proved);
+      EXPECT_LE(rest.events, 2) << e1 << " " << e2;
+      EXPECT_NEAR(rest.p(1), (1.0 + e1) / 2.0 / (1.0 - e1 * e2), 1e-14 / (1.0 - e1 * e2));
+    }
+  }
+}
+
 TEST(HardMultiContactTest, AnElasticBallInASlotHasNoLimit) {
   const Orders orders = FindOrders(Slot(1.0, 1.0), kNever, 200);
   EXPECT_FALSE(orders.complete);

@@ -44,6 +44,21 @@ TEST(PossibleTest, RangesOfTwoContactsAreThoseOfTheReference) {
   EXPECT_EQ(scenes, 36);
 }
 
+// Every impulse within the cones takes energy here, so that nothing can change.
+TEST(PossibleTest, WhatPartsFasterThanItSlidesStaysAsItIs) {
+  Problem problem = {.d = 3, .k = 2, .w = Eigen::MatrixXd::Identity(6, 6), .v = Vector::Zero(6)};
+  problem.laws = {{.mu = 1.0, .e = 0.5}, {.mu = 0.2, .e = 0.5}};
+  problem.w(2, 5) = problem.w(5, 2) = 0.5;
+  problem.v << 0.9, 0.3, 1.0, 2.0, 1.0, 0.5;
+  const std::vector<Range> ranges = RangesOf(problem);
+  for (int j = 0; j < problem.v.size(); ++j) {
+    const Range& range = ranges[static_cast<size_t>(j)];
+    EXPECT_LE(range.lower, problem.v(j));
+    EXPECT_GE(range.upper, problem.v(j));
+    EXPECT_LT(range.upper - range.lower, 1e-14);
+  }
+}
+
 TEST(PossibleTest, HoldEveryOutcomeOfOrdersAndSprings) {
   for (const auto& scene : ReadMultiContactVectors()) {
     const Problem problem = ProblemOf(scene);

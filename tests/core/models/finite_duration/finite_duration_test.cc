@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -440,6 +441,22 @@ TEST(FiniteDurationTest, WhereNothingMovesAlongTFrictionTakesNothing) {
   EXPECT_EQ(impact.f1, 0.0);
   EXPECT_EQ(impact.friction_dissipation, 0.0);
   EXPECT_EQ(impact.spring_energy, 0.0);
+}
+
+// Without slip and coupling the tangential spring is never stretched.
+TEST(FiniteDurationTest, WhatHasNoSlipToStartWithNeverSlips) {
+  for (const auto& [wtt, wnn, v0, mu, eta, ratio_squared, stiffness] :
+       {std::array{3.5, 1.0, -1.0, 0.5, 0.8, 1.2, 1e5}, {4.78, 2.46, -0.2815, 0.03142, 0.7397, 9.4536, 7.8e7}}) {
+    for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
+      const Impact impact =
+          Solve({.contact = {.w = {wtt, 0.0, wnn}, .v0 = v0, .mu = mu, .mu_static = mu, .coefficient = eta},
+                 .spring = LinearSpring{stiffness},
+                 .ratio_squared = ratio_squared,
+                 .tolerance = tolerance});
+      EXPECT_EQ(KindsOf(impact),
+                (std::vector{EventKind::kStart, EventKind::kCompressionEnds, EventKind::kRestitutionEnds}));
+    }
+  }
 }
 
 TEST(FiniteDurationTest, AParticleThatStopsWhereNothingMovesAlongTSticks) {
