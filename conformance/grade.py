@@ -76,7 +76,8 @@ def add_answer(where, name, law, velocity, cases, answers):
         rule = f'must have {len(names)}, {", ".join(names)}'
         refuse(f'{where}.velocity_after of {name} has {len(velocity)} numbers: {rule}')
     if not all(abs(x) < 1e100 for x in velocity):  # Below neither energies nor impulses overflow.
-        refuse(f'{where}.velocity_after of {name}: must have numbers of a size below 1e100; leave out a case without any')
+        rule = 'must have numbers of a size below 1e100; leave out a case without any'
+        refuse(f'{where}.velocity_after of {name}: {rule}')
     answers[name] = (law, np.array(velocity, float))
 
 
@@ -158,10 +159,13 @@ def read_csv(text, path, cases):
     for line in lines.values():
         if line.count('"') % 2:
             refuse(f'{path}: {line} begins a cell in quotes that does not end')
+    for separator, name in ((';', 'semicolons'), ('\t', 'tabs')):
+        if separator in next(iter(lines.values()), ''):
+            refuse(f'{path} separates its columns by {name}: must use commas')
     rows = [list(cells_of(line)) for line in lines.values()]
     header = rows[0] if rows else []
     if header != ['case', 'law', 'velocity_after']:
-        refuse(f'{path} has the header {",".join(header)}: must have case,law,velocity_after, separated by commas')
+        refuse(f'{path} has the header {",".join(header)}: must have case,law,velocity_after')
     answers = {}
     for place, row in zip(list(lines)[1:], rows[1:]):
         try:
@@ -199,15 +203,10 @@ def least_squares(a, b):
     return x if rank == a.shape[1] else None
 
 
-def edge_impulses(case, effects, change):
-    """Returns impulses along the edges of (pyramids inside) the friction cones, by what unit impulses do."""
-    edges = [[1.0], [-1.0]]
-    if case.dimension == 3:
-        impulse = least_squares(effects, change)
-        length = 0.0 if impulse is None else math.hypot(impulse[0], impulse[1])
-        c, s = (impulse[0] / length, impulse[1] / length) if length > 0 else (1.0, 0.0)
-        edges = [[c, s], [-c, -s], [-s, c], [s, -c]]
-    d = case.dimension
+def edge_impulses(case, angle):
+    """Impulses along the edges of the friction cones; in space of a pyramid inside that has an edge at this angle."""
+    c, s, d = math.cos(angle), math.sin(angle), case.dimension
+    edges = [[1.0], [-1.0]] if d == 2 else [[c, s], [-c, -s], [-s, c], [s, -c]]
     for contact, friction in enumerate(case.friction):
         for edge in edges[:1] if friction == 0 else edges:
             impulse = np.zeros(len(case.jacobian))
@@ -215,10 +214,9 @@ def edge_impulses(case, effects, change):
             yield impulse
 
 
-def outside_cones(case, change):
-    """What is left of the change after the impulse within the friction cones that leaves the least sum of squares."""
-    effects = np.linalg.solve(case.mass, case.jacobian.T)
-    edges = effects @ np.array(list(edge_impulses(case, effects, change))).T
+def outside_pyramids(case, effects, change, angle):
+    """What is left of the change after the impulse within the pyramids that leaves the least sum of squares."""
+    edges = effects @ np.array(list(edge_impulses(case, angle))).T
     lengths = np.linalg.norm(edges, axis=0)
     edges = edges / np.where(lengths > 0, lengths, 1)  # So that effects on heavy bodies count as those on light ones.
     least = change
@@ -227,6 +225,22 @@ def outside_cones(case, change):
             shares = least_squares(edges[:, chosen], change)
             if shares is not None and min(shares) >= 0:
                 least = min(least, change - edges[:, chosen] @ shares, key=np.linalg.norm)
+    return least
+
+
+def outside_cones(case, change):
+    """The same for the friction cones. A case in space has one contact: the edge of its pyramid is moved."""
+    effects = np.linalg.solve(case.mass, case.jacobian.T)
+    impulse = least_squares(effects, change)
+    middle = 0.0 if impulse is None else math.atan2(impulse[1], impulse[0])
+    least = outside_pyramids(case, effects, change, middle)
+    step = 0.5
+    while case.dimension == 3 and step > 1e-9:
+        for angle in (middle - step, middle + step):
+            beside = outside_pyramids(case, effects, change, angle)
+            if np.linalg.norm(beside) < np.linalg.norm(least):
+                least, middle = beside, angle
+        step *= 0.7
     return least
 
 
@@ -333,11 +347,11 @@ def text_of(head, origin, graded):
 
 def tolerance(text):
     try:
-        if (value := number(text)) > 0:
+        if 0 < (value := number(text)) < 1e100:
             return value
     except ValueError as error:
         raise argparse.ArgumentTypeError(str(error))
-    raise argparse.ArgumentTypeError(f'{text} must be above 0')
+    raise argparse.ArgumentTypeError(f'{text} must be above 0 and below 1e100')
 
 
 def laws_text(graded, general, found):
@@ -366,8 +380,8 @@ def main():
     simulator, answers = read_answers(options.answers, cases)
     asked = [case for case in cases.values() if case.family in options.family or case.name in options.case
              or not options.family and not options.case]
-    laws = [law for law, _ in answers.values()]
-    stated = options.law or (laws[0] if all(laws) else '')
+    laws = [law for name, (law, _) in answers.items() if len(cases[name].friction) == 1]  # A law counts at one contact.
+    stated = options.law or (laws[0] if laws and all(laws) else '')
     general = stated or commonest_law(cases, answers, options.tolerance)
     graded = []
     for case in asked:

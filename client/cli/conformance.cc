@@ -117,8 +117,8 @@ absl::StatusOr<Grade> MakeGrade(const ConformanceOptions& options) {
   GradeDemand demand = {.law = options.law};
   const absl::StatusOr<double> tolerance = ParseNumber(options.tolerance, "--tolerance");
   if (!tolerance.ok()) return tolerance.status();
-  if (!(*tolerance > 0.0 && std::isfinite(*tolerance))) {
-    return InputError("--tolerance", options.tolerance, "be above 0, and finite");
+  if (!(*tolerance > 0.0 && *tolerance < 1e100)) {
+    return InputError("--tolerance", options.tolerance, "be above 0 and below 1e100");
   }
   demand.tolerance = *tolerance;
   if (absl::Status status = CheckConformanceLaw(options.law, "--law"); !status.ok()) return status;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/answer/model_outcomes.h"
 #include "core/scene/numbers.h"
 
@@ -26,7 +27,7 @@ std::vector<Event> TimelineOf(const Problem& problem, const Impact& impact, cons
   std::vector<Event> timeline;
   if (impact.sections.empty()) return timeline;
   timeline.push_back(MakeEvent(EventKind::kStart, impact.sections.front(), reduction));
-  bool compresses = true;
+  bool compresses = impact.tau_compression > 0.0;
   const auto add_end_of_compression = [&](const Section& section) {
     if (!compresses || section.tau < impact.tau_compression) return;
     compresses = false;
@@ -37,10 +38,20 @@ std::vector<Event> TimelineOf(const Problem& problem, const Impact& impact, cons
     AddFrictionEvent(problem, impact.sections[i - 1], impact.sections[i], reduction, timeline);
   }
   const Section end = {.tau = impact.tau1, .f = impact.f1, .u = impact.u1, .v = impact.v1};
-  add_end_of_compression(end);  // Without restitution.
+  if (impact.termination == Termination::kConverged) add_end_of_compression(end);  // Without restitution.
   timeline.push_back(MakeEvent(EventKind::kRestitutionEnds, end, reduction));
-  if (timeline.size() > kMostEvents) timeline.erase(timeline.begin() + kMostEvents - 1, timeline.end() - 1);
   return timeline;
+}
+
+void CutTimeline(Outcome& outcome) {
+  std::vector<Event>& timeline = outcome.timeline;
+  if (timeline.size() <= kMostEvents) return;
+  timeline.erase(timeline.begin() + kMostEvents - 1, timeline.end() - 1);
+  outcome.notes.push_back(
+      {.kind = NoteKind::kTimelineCut,
+       .path = "timeline",
+       .text = absl::StrCat("The contact sticks and slips so often that the timeline has the first ", kMostEvents - 1,
+                            " events and the end alone.")});
 }
 
 }  // namespace
@@ -56,8 +67,10 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
   SetErrors(impact.errors, outcome);
   // If the path overflows, not even the regime is known, so that the outcome is checked in every case.
   if (!std::isfinite(impact.u1)) return CheckFinite(outcome);
-  return Complete(
+  const absl::Status status = Complete(
       detail, [&] { return TimelineOf(problem, impact, reduction); }, NoPath, outcome);
+  CutTimeline(outcome);
+  return status;
 }
 
 }  // namespace ricochet::compliant

@@ -10,7 +10,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "core/answer/model_outcomes.h"
 #include "core/base/decimal.h"
 #include "core/contact/delassus.h"
 #include "core/scene/numbers.h"
@@ -40,13 +39,6 @@ std::string InRadians(double degrees) { return absl::StrFormat("%.3g", degrees *
           .path = path.Text(),
           .text = absl::StrCat(path.Text(), " = ", number, " rad lies beyond a full turn; write ", number, "deg or ",
                                InRadians(value), " if it is meant in degrees.")};
-}
-
-Note TimelineIsCut() {
-  return {.kind = NoteKind::kTimelineCut,
-          .path = "timeline",
-          .text = absl::StrCat("The contact sticks and slips so often that the timeline has the first ",
-                               compliant::kMostEvents - 1, " events and the end alone.")};
 }
 
 void AddUndetermined(const char* path, std::string text, Outcome& outcome) {
@@ -159,7 +151,6 @@ void AddNotes(const Scene& scene, const PlannedScene& planned, Outcome& outcome)
     if (rule == NumberRule::kAngle && std::abs(value) > kFullTurn) outcome.notes.push_back(LargeAngle(path, value));
   });
   if (planned.choice.model != Model::kImpactLaw) std::visit(AddUndeterminedOf{scene, outcome}, planned.problem);
-  if (outcome.timeline.size() == compliant::kMostEvents) outcome.notes.push_back(TimelineIsCut());
 }
 
 }  // namespace ricochet

@@ -48,17 +48,26 @@ std::optional<Pair> PairOf(const Problem& problem, int i, int j, const Vector& v
   return pair;
 }
 
+// True if both normal velocities are those that an impulse makes, to within their errors.
+bool IsInRange(const Problem& problem, const Pair& pair, const Attained& state) {
+  const Eigen::Matrix2d& a = pair.a;
+  const double first = a(1, 1) * pair.v(0), second = a(0, 1) * pair.v(1);
+  const double error = a(1, 1) * state.ErrorOf(problem, problem.N(pair.contact(0))) +
+                       std::abs(a(0, 1)) * state.ErrorOf(problem, problem.N(pair.contact(1)));
+  return std::abs(first - second) <= error + 8.0 * kEpsilon * (std::abs(first) + std::abs(second));
+}
+
 // `approach` is the speed with which the first contact was struck last.
-bool IsEndless(const Pair& pair, double approach) {
+bool IsEndless(const Problem& problem, const Pair& pair, double approach, const Attained& state) {
   const Eigen::Matrix2d& a = pair.a;
   if (!(a(0, 0) > 0.0 && a(1, 1) > 0.0 && a(0, 1) < 0.0 && a(1, 0) < 0.0)) return false;
+  // In a slot one contact approaches as the other parts, so that the conditions below hold, the last with equality.
+  if (pair.is_singular) return IsInRange(problem, pair, state);
   const double e1 = pair.e(0), e2 = pair.e(1);
   const double product = (1.0 + e1) * (1.0 + e2) * (a(0, 1) * a(1, 0) / (a(0, 0) * a(1, 1)));
   const double roots = std::sqrt(e1) + std::sqrt(e2);
   const double excess = product - roots * roots;
   if (e1 * e2 == 0.0 ? !(excess > 0.0) : !(excess >= 0.0)) return false;
-  // Then each approaches as the other parts, and the last condition is an equality.
-  if (pair.is_singular) return true;
   // The eigenvalues of two impacts, whose discriminant is a product.
   const double trace = product - e1 - e2;
   const double larger = 0.5 * (trace + std::sqrt(excess * (trace + 2.0 * std::sqrt(e1 * e2))));
@@ -166,7 +175,7 @@ void AddError(const Problem& problem, const Pair& pair, const Eigen::Vector2d& i
 
 bool CloseEndlessPair(const Problem& problem, int i, int j, double approach, Attained& state) {
   const std::optional<Pair> pair = PairOf(problem, i, j, state.v);
-  if (!pair.has_value() || !IsEndless(*pair, approach)) return false;
+  if (!pair.has_value() || !IsEndless(problem, *pair, approach, state)) return false;
   const std::optional<Eigen::Vector2d> impulses = RemainingImpulses(*pair);
   if (!impulses.has_value()) return false;
   const Eigen::MatrixXd moved = pair->rows * impulses->asDiagonal();

@@ -26,8 +26,8 @@ Range ProductOf(const Eigen::VectorXd& gamma, const Eigen::VectorXd& v) {
 
 std::vector<Range> FindPossible(const Problem& problem, const EnergyMetric& metric, const Eigen::VectorXd& apart,
                                 const std::vector<Eigen::VectorXd>& gammas, absl::FunctionRef<bool()> stopped) {
-  // Where each contact parts faster than it slides times friction, every impulse takes energy.
-  if (LeastParting(problem, problem.v) > 0.0) {
+  // Where no contact parts more slowly than it slides times friction, an impulse that changes anything adds energy.
+  if (LeastParting(problem, problem.v) >= 0.0) {
     std::vector<Range> unchanged;
     for (const Eigen::VectorXd& gamma : gammas) unchanged.push_back(ProductOf(gamma, problem.v));
     return unchanged;

@@ -31,8 +31,8 @@ void Put(const std::vector<Code>& codes, int64_t first, Codes& to) {
                  [](Code code) { return static_cast<uint8_t>(code); });
 }
 
-// Counts the rows that have no numbers, those that are inadmissible, those whose impact has no end or no solution, those
-// that did not converge, and those in which nothing strikes.
+// Counts the rows that have no numbers, those that are inadmissible, those whose impact has no end or no solution,
+// those that did not converge, and those in which nothing strikes.
 py::tuple Counts(const Codes& regimes, const Codes& statuses) {
   const auto count = [&statuses](RowStatus status) {
     return std::count(statuses.data(), statuses.data() + statuses.size(), static_cast<uint8_t>(status));

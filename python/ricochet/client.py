@@ -19,7 +19,7 @@ from ricochet._core import Scene
 from ricochet.connection import resolve
 from ricochet.errors import InvalidRequest, RicochetError, Violation
 from ricochet.mechanisms import AtContact
-from ricochet.record import Record
+from ricochet.record import Record, check_side
 from ricochet.table import Codes, Table
 
 if TYPE_CHECKING:
@@ -168,8 +168,8 @@ class Client:
             certified: also give numbers with this many proved significant digits, at most 1000.
             both_ends: also give the impact in which no coordinate of a mechanism is held, as ``free_end``.
             derivatives: also give how fast numbers of the outcome change with numbers of the scene:
-                ``{"of": ["impulse.normal_total_n_s"], "by": ["friction.kinetic_coefficient"]}``; ``jacobian(of, by)`` of
-                the outcome gives them as an array. ``"find_thresholds": True`` also gives how far each number of
+                ``{"of": ["impulse.normal_total_n_s"], "by": ["friction.kinetic_coefficient"]}``; ``jacobian(of, by)``
+                of the outcome gives them as an array. ``"find_thresholds": True`` also gives how far each number of
                 ``by`` may move before the impact takes another course, as ``below`` and ``above`` of each derivative.
 
         Returns:
@@ -211,6 +211,7 @@ class Client:
                 message has the names that it may mean.
             RicochetError: the call failed otherwise.
         """
+        check_side(side)
         scene = Scene(scene)
         paths = _full_paths({"of": of, "by": by}, {"of": scene._columns(), "by": scene._fields()})
         return self.solve(scene, derivatives=paths).jacobian(paths["of"], paths["by"], side=side)

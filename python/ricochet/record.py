@@ -53,15 +53,12 @@ class Record(dict[str, Any]):
         Raises:
             InvalidRequest: a name means none of the numbers that were asked for, or several.
         """
-        if side not in _SIDES:
-            values.refuse("side", f"= {side!r}: must be one of {', '.join(_SIDES)}")
+        check_side(side)
         known = {(each["of"], each["by"]): each[_SIDES[side]] for each in self.get("derivatives") or ()}
         if not known:
             values.refuse("derivatives", 'must be asked for: solve(scene, derivatives={"of": [...], "by": [...]})')
-        rows, columns = (
-            [_asked_for(name, list(dict.fromkeys(pair[i] for pair in known)), what)
-             for name in values.names(given, what)]
-            for i, (what, given) in enumerate((("of", of), ("by", by))))
+        rows = _asked_for(of, [of for of, _ in known], "of")
+        columns = _asked_for(by, [by for _, by in known], "by")
         return np.array([[known[row, column] for column in columns] for row in rows], dtype=np.float64).reshape(
             len(rows), len(columns))
 
@@ -98,11 +95,21 @@ class UnreadRecord(Record):
         return _core.read_entry(self, name)
 
 
-def _asked_for(name: str, known: list[str], what: str) -> str:
-    meant = names.meanings(name, known)
-    if len(meant) != 1:
-        values.refuse(what, f"= {name!r}: must name one of {', '.join(meant or known)}")
-    return meant[0]
+def check_side(side: str) -> None:
+    if side not in _SIDES:
+        values.refuse("side", f"= {side!r}: must be one of {', '.join(_SIDES)}")
+
+
+def _asked_for(given: str | Iterable[str], paths: list[str], what: str) -> list[str]:
+    """Returns the paths that names mean among those that were asked for."""
+    known = list(dict.fromkeys(paths))
+    found = []
+    for name in values.names(given, what):
+        meant = names.meanings(name, known)
+        if len(meant) != 1:
+            values.refuse(what, f"= {name!r}: must name one of {', '.join(meant or known)}")
+        found += meant
+    return found
 
 
 def _reading(name: str) -> Callable[..., Any]:

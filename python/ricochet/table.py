@@ -81,8 +81,8 @@ class Table:
     is_grid: bool = False
     """True if the rows are all combinations of the axes, the last of which runs fastest."""
     summary: Record = field(default_factory=Record)
-    """Counts of rows: ``inadmissible``, ``without_end``, ``not_converged``, ``separating``, and by regime for a sweep; a
-    batch has ``bad_rows``, too."""
+    """Counts of rows: ``inadmissible``, ``without_end``, ``not_converged``, ``separating``, and by regime for a sweep;
+    a batch has ``bad_rows``, too."""
     attrs: dict[str, str] = field(default_factory=dict)
     """Of a sweep: the request and the engine, by the names that the NetCDF files of the command line have."""
     index: Any = None

@@ -232,6 +232,17 @@ TEST_P(BatchContract, ASetupWithoutFieldsOrColumnsOrWithAFieldTwiceIsRefused) {
   EXPECT_THAT(violations[0].description, HasSubstr("which fields[0] drives"));
 }
 
+TEST_P(BatchContract, AFieldThatAnotherOneSetsNamesIt) {
+  BatchSetup setup = {.scene = {.system = Pendulum{1.0, 0.3, 1.0, -1.0}, .restitution = EnergeticCoefficient{0.5}},
+                      .fields = {"pendulum.phi_rad", "pendulum.b_m"},
+                      .columns = {"coefficients.newton"}};
+  Table table({{1}, {1}}, 1);
+  const std::vector<Violation> violations = ViolationsOf(solver().SolveBatch(setup, table.Rows()).status());
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_THAT(violations[0].description,
+              HasSubstr("not drive pendulum.b_m, which fields[0], pendulum.phi_rad, drives"));
+}
+
 TEST_P(BatchContract, OutputsThatShareMemoryAreRefused) {
   Table table({{1, 2}, {-1, -2}, {0.1, 0.2}}, 2);
   BatchRows rows = table.Rows();

@@ -57,17 +57,12 @@ std::optional<VectorXd> LeastSquares(const MatrixXd& a, const VectorXd& b) {
   return qr.rank() == a.cols() ? std::optional<VectorXd>(qr.solve(b)) : std::nullopt;
 }
 
-// Returns the tangential directions, as columns, of the edges of a pyramid inside a friction cone. In space one of them
-// is that of the impulse by which the effects cause the change, if there is one.
-MatrixXd Edges(int dimension, const MatrixXd& effects, const VectorXd& change) {
+// Returns the tangential directions, as columns, of the edges of a pyramid inside a friction cone, which is the cone
+// itself in a plane. In space the first one lies at this angle.
+MatrixXd Edges(int dimension, double angle) {
   if (dimension == 2) return Eigen::RowVector2d(1.0, -1.0);
-  const std::optional<VectorXd> impulse = LeastSquares(effects, change);
-  Eigen::Vector2d along(1.0, 0.0);
-  if (impulse.has_value() && !impulse->head<2>().isZero(0.0)) along = impulse->head<2>().normalized();
-  const Eigen::Vector2d across(-along(1), along(0));
-  MatrixXd edges(2, 4);
-  edges << along, -along, across, -across;
-  return edges;
+  const double c = std::cos(angle), s = std::sin(angle);
+  return (MatrixXd(2, 4) << c, -c, -s, s, s, -s, c, -c).finished();
 }
 
 // Returns the impulses along the edges of all cones, as columns. A cone without friction has one edge.
@@ -84,14 +79,11 @@ MatrixXd EdgeImpulses(const ConformanceCase& one, const MatrixXd& edges) {
   return columns;
 }
 
-// Returns what is left of the change of velocity after the impulse within the friction cones of the case that leaves
-// the least sum of squares. It is 0 to rounding exactly if some impulse within the cones causes the change. In space a
-// cone is replaced by the pyramid inside it that has an edge along the tangential impulse of the change: what is left
-// of a change outside the cones may then be larger. A case in space has one contact.
-VectorXd OutsideCones(const ConformanceCase& one, const VectorXd& change) {
-  const MatrixXd effects = one.mass.llt().solve(one.jacobian.transpose());
+// Returns what is left of the change of velocity after the impulse within the pyramids that leaves the least sum of
+// squares. `effects` are the changes that unit impulses cause.
+VectorXd OutsidePyramids(const ConformanceCase& one, const MatrixXd& effects, const VectorXd& change, double angle) {
   // The effects of unit length, so that those on heavy bodies count as those on light ones.
-  const MatrixXd edges = (effects * EdgeImpulses(one, Edges(one.dimension, effects, change))).colwise().normalized();
+  const MatrixXd edges = (effects * EdgeImpulses(one, Edges(one.dimension, angle))).colwise().normalized();
   VectorXd least = change;
   // The nearest impulse lies on a face of the cones: on the edges of one subset.
   for (size_t subset = 1; subset < size_t{1} << edges.cols(); ++subset) {
@@ -104,6 +96,28 @@ VectorXd OutsideCones(const ConformanceCase& one, const VectorXd& change) {
     if (!shares.has_value() || shares->minCoeff() < 0.0) continue;
     const VectorXd left = change - face * *shares;
     if (left.squaredNorm() < least.squaredNorm()) least = left;
+  }
+  return least;
+}
+
+// Returns the same for the friction cones: 0 to rounding exactly if some impulse within them causes the change. A case
+// in space has one contact, whose nearest impulse lies in the pyramid with an edge in the right direction.
+VectorXd OutsideCones(const ConformanceCase& one, const VectorXd& change) {
+  const MatrixXd effects = one.mass.llt().solve(one.jacobian.transpose());
+  const auto left = [&](double angle) { return OutsidePyramids(one, effects, change, angle); };
+  const std::optional<VectorXd> impulse = LeastSquares(effects, change);
+  double middle = impulse.has_value() ? std::atan2((*impulse)(1), (*impulse)(0)) : 0.0;
+  VectorXd least = left(middle);
+  if (one.dimension == 2) return least;
+  // A pyramid has an edge in each quarter of a turn.
+  constexpr double kShrinks = 0.7;
+  for (double step = 0.5; step > 1e-9; step *= kShrinks) {
+    for (const double angle : {middle - step, middle + step}) {
+      const VectorXd beside = left(angle);
+      if (!(beside.squaredNorm() < least.squaredNorm())) continue;
+      least = beside;
+      middle = angle;
+    }
   }
   return least;
 }
@@ -183,10 +197,14 @@ int Grade::RightCases() const {
 
 Grade GradeOf(const SimulatorAnswers& answers, const GradeDemand& demand) {
   Grade grade{.demand = demand, .simulator = answers.simulator, .law = demand.law};
-  const bool all_state = std::none_of(answers.answers.begin(), answers.answers.end(),
-                                      [](const SimulatorAnswer& answer) { return answer.law.empty(); });
-  if (grade.law.empty() && all_state) grade.law = answers.answers.front().law;
-  grade.law_found = grade.law.empty();
+  // A law counts at one contact.
+  bool all_state = true;
+  for (const SimulatorAnswer& answer : answers.answers) {
+    if (!answer.asked->HasOneContact()) continue;
+    all_state = all_state && !answer.law.empty();
+    if (grade.law.empty()) grade.law = answer.law;
+  }
+  grade.law_found = demand.law.empty() && (!all_state || grade.law.empty());
   if (grade.law_found) grade.law = CommonestLaw(answers, demand.tolerance);
   for (const ConformanceCase* asked : demand.asked) {
     const auto found = std::find_if(answers.answers.begin(), answers.answers.end(),

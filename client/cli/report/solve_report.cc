@@ -423,17 +423,22 @@ const char* EventText(EventKind kind) {
   return "?";
 }
 
+bool IsOnTangentialSpring(const Outcome& outcome) {
+  const std::vector<PlannedEffect> effects = outcome.plan.effects.List();
+  return std::any_of(effects.begin(), effects.end(), [](const PlannedEffect& effect) {
+    return effect.effect == Effect::kTangentialCompliance &&
+           (effect.decision == Decision::kSimulated || effect.decision == Decision::kRequired);
+  });
+}
+
+// On a tangential spring the contact moves on after the particle that touches the surface has stuck.
 std::string WhatHappens(const Outcome& outcome) {
-  // On a tangential spring the contact moves on after it has stuck.
-  const bool may_have_spring =
-      outcome.plan.model == Model::kCompliant ||
-      (outcome.plan.model == Model::kFiniteDuration && outcome.contact_velocity_after.tangential_m_s[0] != 0.0);
-  if (outcome.plan.model == Model::kCompliant && outcome.regime == Regime::kSliding) {
-    return "Sliding: the contact particle, which the tangential spring holds, never sticks.";
+  const bool sticks = outcome.regime == Regime::kStickInCompression || outcome.regime == Regime::kStickInRestitution;
+  if ((!sticks && outcome.regime != Regime::kSliding) || !IsOnTangentialSpring(outcome)) {
+    return RegimeSentence(outcome.regime);
   }
-  const bool on_spring = may_have_spring && (outcome.regime == Regime::kStickInCompression ||
-                                             outcome.regime == Regime::kStickInRestitution);
-  return absl::StrCat(RegimeSentence(outcome.regime), on_spring ? " Its tangential spring moves it on." : "");
+  if (!sticks) return "Sliding: the contact particle, which the tangential spring holds, never sticks.";
+  return absl::StrCat(RegimeSentence(outcome.regime), " Its tangential spring moves it on.");
 }
 
 std::string SolveText(const Outcome& outcome, bool surface_moves) {

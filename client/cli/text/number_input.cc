@@ -64,7 +64,7 @@ std::string ReadNumber(const std::string& text, Spelling spelling, double& value
   const bool is_fraction = slash != absl::string_view::npos;
   if (is_fraction && !(std::isfinite(value) && std::isfinite(denominator))) return kNumberRule;
   value = in_degrees ? Radians(value, denominator) : value / denominator;
-  if (is_fraction && (!std::isfinite(value) || (value == 0.0 && !is_zero))) return kRangeRule;
+  if ((is_fraction || in_degrees) && (!std::isfinite(value) || (value == 0.0 && !is_zero))) return kRangeRule;
   return "";
 }
 

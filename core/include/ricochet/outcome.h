@@ -253,8 +253,8 @@ struct Outcome {
   Impulse impulse;
   WorkLedger work;
   double energy_change_j = 0.0;
-  std::vector<Event> timeline;                        // In order of normal impulse; empty if the contact separates.
-  std::vector<State> history;                         // One for each SolveRequest.history_at_n_s, in that order.
+  std::vector<Event> timeline;  // In order of normal impulse, at most 8192; empty if it separates.
+  std::vector<State> history;   // One for each SolveRequest.history_at_n_s, in that order.
   absl::InlinedVector<BodyVelocity, 2> bodies_after;  // Body 1 first. Empty for systems other than free bodies.
   EffectiveCoefficients effective;
   Accuracy accuracy;

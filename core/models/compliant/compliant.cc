@@ -75,6 +75,14 @@ MomentumErrors ErrorsOfMomentum(const PlanarProblem& problem, const SpringContac
   return {impulses, energy};
 }
 
+// The normal impulse of a restitution that is computed as none. It returns the energy (eta F)^2/2 while v rises by at
+// least Wnn - mu |Wtn| for each unit of it.
+double UnseenRestitution(const SpringContact& contact, double eta, double largest_force) {
+  if (eta == 0.0 || eta >= kLeastEnergetic) return 0.0;
+  const double slope = contact.wnn - contact.mu * std::fabs(contact.wtn);
+  return slope > 0.0 ? eta * largest_force / std::sqrt(slope) : ImpactErrors::kUnknown;
+}
+
 ImpactErrors NumberErrorsOf(const PlanarProblem& problem, const Units& units, const SpringContact& contact,
                             const PathResult& path, const Impact& impact) {
   ImpactErrors errors;
@@ -96,22 +104,21 @@ ImpactErrors NumberErrorsOf(const PlanarProblem& problem, const Units& units, co
   scaled.tau_compression = path.compression_end.tau;
   scaled.tau1 = path.end.tau;
   scaled.work_normal_compression = -stored;
-  // A coefficient that is computed as 0 changes velocities in proportion to itself.
-  const double unseen = problem.coefficient < kLeastEnergetic
-                            ? 16.0 * problem.coefficient * force * (1.0 + contact.mu) *
-                                  (1.0 + contact.wtt + std::fabs(contact.wtn) + contact.wnn)
-                            : 0.0;
-  errors.v = path.v_error + rounding * std::fabs(path.end.v) + unseen;
+  const double unseen = UnseenRestitution(contact, problem.coefficient, force);
+  const double coupling = std::fabs(contact.wtn);
+  errors.v = path.v_error + rounding * std::fabs(path.end.v) + (contact.wnn + contact.mu * coupling) * unseen;
   errors.tau_compression = first.impulses.tau;
-  errors.tau = last.impulses.tau;
-  errors.f = last.impulses.f;
+  errors.tau = last.impulses.tau + unseen;
+  errors.f = last.impulses.f + contact.mu * unseen;
   SetCoefficientErrors(scaled, problem.v0, RestitutionLaw::kEnergetic, problem.coefficient, errors);
   constexpr double kSmallest = 0x1p-1073;
-  errors.u = units.Speed(path.u_error + rounding * std::fabs(path.end.u) + unseen) + kSmallest;
+  errors.u =
+      units.Speed(path.u_error + rounding * std::fabs(path.end.u) + (coupling + contact.mu * contact.wtt) * unseen) +
+      kSmallest;
   errors.v = units.Speed(errors.v) + kSmallest;
   errors.tau_compression = units.Impulse(first.impulses.tau) + kSmallest;
-  errors.tau = units.Impulse(last.impulses.tau) + kSmallest;
-  errors.f = units.Impulse(last.impulses.f) + kSmallest;
+  errors.tau = units.Impulse(errors.tau) + kSmallest;
+  errors.f = units.Impulse(errors.f) + kSmallest;
   errors.work_normal_compression = units.Work(normal) + kSmallest;
   errors.work_normal_restitution = units.Work(returned) + kSmallest;
   errors.work_tangential_compression = units.Work(first.energy + normal + terms) + kSmallest;

@@ -133,10 +133,9 @@ TEST(HardMultiContactTest, ABallInASlotComesToRest) {
 
 // The condition for a sequence without end holds with equality in a slot, which no rounding may decide.
 TEST(HardMultiContactTest, EverySlotHasAProvedLimit) {
-  for (int i = 0; i < 20; ++i) {
-    for (int j = 0; j < 20; ++j) {
-      const double e1 = 0.05 * i, e2 = 0.05 * j;
-      if (e1 == 0.0 || e2 == 0.0) continue;
+  for (int i = 1; i < 20; ++i) {
+    for (int j = 1; j <= 20; ++j) {
+      const double e1 = 0.05 * i, e2 = j == 20 ? 1.0 : 0.05 * j;
       const Orders orders = FindOrders(Slot(e1, e2), kNever);
       ASSERT_EQ(orders.outcomes.size(), 1U);
       const Attained& rest = orders.outcomes.front().attained;
@@ -146,6 +145,20 @@ TEST(HardMultiContactTest, EverySlotHasAProvedLimit) {
       EXPECT_NEAR(rest.p(1), (1.0 + e1) / 2.0 / (1.0 - e1 * e2), 1e-14 / (1.0 - e1 * e2));
     }
   }
+}
+
+// Walls that part carry the ball away, however slowly: this is no slot.
+TEST(HardMultiContactTest, WallsThatPartHaveNoLimitBetweenThem) {
+  for (const double parting : {5e-7, -5e-7}) {
+    Problem slot = Slot(0.5, 0.5);
+    slot.v(3) += parting;
+    for (const DistinctOutcome& outcome : FindOrders(slot, kNever).outcomes) {
+      EXPECT_NE(outcome.attained.end, MultiContactEnd::kEndless) << parting;
+    }
+  }
+  // One that loses next to nothing comes to rest all the same.
+  const Orders nearly_elastic = FindOrders(Slot(1.0 - 1e-10, 1.0 - 1e-10), kNever);
+  EXPECT_EQ(nearly_elastic.outcomes.front().attained.end, MultiContactEnd::kEndless);
 }
 
 TEST(HardMultiContactTest, AnElasticBallInASlotHasNoLimit) {

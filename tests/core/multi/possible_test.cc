@@ -44,7 +44,7 @@ TEST(PossibleTest, RangesOfTwoContactsAreThoseOfTheReference) {
   EXPECT_EQ(scenes, 36);
 }
 
-// Every impulse within the cones takes energy here, so that nothing can change.
+// Every impulse within the cones would add energy here, so that nothing can change.
 TEST(PossibleTest, WhatPartsFasterThanItSlidesStaysAsItIs) {
   Problem problem = {.d = 3, .k = 2, .w = Eigen::MatrixXd::Identity(6, 6), .v = Vector::Zero(6)};
   problem.laws = {{.mu = 1.0, .e = 0.5}, {.mu = 0.2, .e = 0.5}};
