@@ -235,12 +235,12 @@ def outside_cones(case, change):
     middle = 0.0 if impulse is None else math.atan2(impulse[1], impulse[0])
     least = outside_pyramids(case, effects, change, middle)
     step = 0.5
-    while case.dimension == 3 and step > 1e-9:
+    while case.dimension == 3 and step > 1e-7:
         for angle in (middle - step, middle + step):
             beside = outside_pyramids(case, effects, change, angle)
             if np.linalg.norm(beside) < np.linalg.norm(least):
                 least, middle = beside, angle
-        step *= 0.7
+        step *= 0.6
     return least
 
 

@@ -204,9 +204,11 @@ class Grades(unittest.TestCase):
         for name, tolerance in (('heavy-ball-on-light-1e9', '1e-5'), ('light-rod-on-heavy-1e6', '1e-6')):
             case = next(case for case in CASES if case['name'] == name)
             answer = by_law(case, 'newton')
-            more = np.linalg.solve(np.array(case['mass_matrix'], float), case['jacobian'][0]) * answer['impulse_n_s'][0] / 100
-            for factor, broken in ((0, False), (1, True)):
-                after = [v + factor * x for v, x in zip(answer['velocity_after'], more.tolist())]
+            friction, normal = answer['impulse_n_s']
+            limit = case['contacts'][0]['friction'] * normal
+            unit = np.linalg.solve(np.array(case['mass_matrix'], float), case['jacobian'][0]).tolist()
+            for factor, broken in ((1, False), (1.01, True)):
+                after = [v + (factor * limit - friction) * x for v, x in zip(answer['velocity_after'], unit)]
                 found, _ = grade({'answers': [{'case': name, 'velocity_after': after}]}, '--tolerance', tolerance)
                 self.assertEqual(state(found, name)['cone']['broken'], broken, name)
 
