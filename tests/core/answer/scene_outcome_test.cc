@@ -615,9 +615,9 @@ Outcome OnSpring(const std::array<double, 6>& numbers, double ratio_squared) {
 TEST(SceneOutcomeTest, CompressionOnASpringEndsOnce) {
   using enum EventKind;
   const auto kinds = [](const Outcome& outcome) {
-    std::vector<EventKind> kinds;
-    for (const Event& event : outcome.timeline) kinds.push_back(event.kind);
-    return kinds;
+    std::vector<EventKind> all;
+    for (const Event& event : outcome.timeline) all.push_back(event.kind);
+    return all;
   };
   const Outcome plastic = OnSpring({3.5, 0.4, 1.0, 0.7, 0.5, 0.0}, 1.2);
   EXPECT_THAT(kinds(plastic), ElementsAre(kStart, kStickStarts, kCompressionEnds, kRestitutionEnds));
