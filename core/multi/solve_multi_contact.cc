@@ -8,6 +8,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "core/base/decimal.h"
 #include "core/models/impact_errors.h"
 #include "core/multi/energy.h"
 #include "core/multi/mirror.h"
@@ -254,6 +255,11 @@ class Answerer {
 
   void AddSprings() {
     answer_.springs = OutcomeOf(FindSprings(sorted_.problem, sorted_.mirror, stopped_));
+    if (answer_.springs->end == MultiContactEnd::kBudgetUsedUp) {
+      answer_.refused.push_back({.method = MultiContactMethod::kSprings,
+                                 .reason = absl::StrCat("the motion on springs after its first ",
+                                                        answer_.springs->events, " events, which found no end")});
+    }
     if (!request_.stiffness_range.has_value()) return;
     const auto at = [&](double stiffness) {
       Problem problem = sorted_.problem;
@@ -263,9 +269,11 @@ class Answerer {
       }
       return OutcomeOf(FindSprings(problem, MirrorOf(problem), stopped_));
     };
-    StiffnessCurve curve = SampleStiffness(
-        *request_.stiffness_range, at,
-        [&](const AttainedOutcome& x, const AttainedOutcome& y) { return Largest(x, y).over_scale; }, stopped_);
+    // A state on the way tells nothing of the outcome.
+    const auto difference = [&](const AttainedOutcome& x, const AttainedOutcome& y) {
+      return IsAttained(x) && IsAttained(y) && Differ(x, y) ? Largest(x, y).over_scale : 0.0;
+    };
+    StiffnessCurve curve = SampleStiffness(*request_.stiffness_range, at, difference, stopped_);
     answer_.stiffness_samples = std::move(curve.samples);
     answer_.stiffness_jumps = std::move(curve.jumps);
   }
@@ -363,10 +371,18 @@ class Answerer {
                        [most](double error) { return !(error <= most); });
   }
 
+  std::string NameOf(const AttainedOutcome& outcome) const {
+    if (!outcome.orders.empty()) return outcome.orders.front();
+    for (const StiffnessSample& sample : answer_.stiffness_samples) {
+      if (&sample.outcome != &outcome) continue;
+      return absl::StrCat(kSpringsName, " at the relative stiffness ", ShortestDecimal(sample.relative_stiffness));
+    }
+    return kSpringsName;
+  }
+
   // Names the two outcomes of `x` and `y` that differ most, and returns whether any two do.
   bool Compare(const std::vector<const AttainedOutcome*>& x, const std::vector<const AttainedOutcome*>& y) {
     double most = kNoWidth;
-    const auto name = [](const AttainedOutcome& one) { return one.orders.empty() ? kSpringsName : one.orders.front(); };
     for (const AttainedOutcome* const one : x) {
       for (const AttainedOutcome* const other : y) {
         if (one == other || !Differ(*one, *other)) continue;
@@ -375,8 +391,8 @@ class Answerer {
         most = difference.over_scale;
         answer_.differing_output = outputs_[difference.output].name;
         answer_.difference = difference.value;
-        answer_.outcome_1 = name(*one);
-        answer_.outcome_2 = name(*other);
+        answer_.outcome_1 = NameOf(*one);
+        answer_.outcome_2 = NameOf(*other);
       }
     }
     return most > kNoWidth;

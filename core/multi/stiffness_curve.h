@@ -22,7 +22,8 @@ struct StiffnessCurve {
   std::vector<StiffnessJump> jumps;
 };
 
-// `springs` gives the outcome for a stiffness of the contact, and `difference` that of two outcomes over its scale.
+// `springs` gives the outcome for a stiffness of the contact, and `difference` that of two outcomes over its scale, 0
+// if none is known.
 StiffnessCurve SampleStiffness(const StiffnessRange& range, absl::FunctionRef<AttainedOutcome(double)> springs,
                                absl::FunctionRef<double(const AttainedOutcome&, const AttainedOutcome&)> difference,
                                absl::FunctionRef<bool()> stopped);

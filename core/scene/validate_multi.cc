@@ -151,13 +151,22 @@ void CheckContacts(const MultiContactScene& scene, Check& check) {
 void CheckMatrix(const ContactMatrix& matrix, const MultiReduction& reduction, Check& check) {
   const auto rows = static_cast<size_t>(reduction.w.rows());
   const double rounding = LeastEigenvalue(rows);
+  for (size_t i = 0; i < rows; ++i) {
+    const double own = matrix.w_per_kg[i * rows + i];
+    check.Require(own >= 0.0, [&] {
+      return MakeViolation(Entry("contact_matrix.w_per_kg", i * rows + i, ""), own,
+                           "be >= 0, as it is on the diagonal");
+    });
+  }
+  if (check.failed()) return;
   const auto w = [&](size_t i, size_t j) { return matrix.w_per_kg[i * rows + j]; };
   for (size_t i = 0; i < rows; ++i) {
     for (size_t j = 0; j < i; ++j) {
       const double scale = std::sqrt(std::abs(w(i, i))) * std::sqrt(std::abs(w(j, j)));
       check.Require(std::abs(w(i, j) - w(j, i)) <= rounding * std::max(scale, std::abs(w(j, i))), [&] {
         return MakeViolation(Entry("contact_matrix.w_per_kg", i * rows + j, ""), w(i, j),
-                             absl::StrCat("be that of its transpose, ", ShortestDecimal(w(j, i))));
+                             absl::StrCat("be that of its transpose, ", ShortestDecimal(w(j, i)),
+                                          "; take (W + W^T)/2 if they differ by rounding"));
       });
     }
   }

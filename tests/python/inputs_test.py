@@ -223,8 +223,14 @@ class Frames(Case):
                 self.assertIsInstance(str(table), str)
         self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: [], "a": [0.3, 0.4]}, NEWTON), MU,
                      "must be one number, or 2 as the longest array")
-        self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: np.ones((4, 2))}, NEWTON), MU,
-                     f"the columns of a matrix are stated as {MU}[0], {MU}[1]")
+        arm = {"mechanism": {"mass_matrix": np.eye(2), "jacobian": np.eye(2), "rates": [1, -1]},
+               "restitution": {"newton": 0.5}}
+        rates = "mechanism.rates"
+        self.refused(lambda: ricochet.solve_batch(arm, {rates: np.ones((4, 2))}, NEWTON), rates,
+                     f"the columns of a matrix are stated as {rates}[0], {rates}[1]")
+        with self.assertRaises(ricochet.InvalidRequest) as caught:
+            ricochet.solve_batch(PENDULUM, {MU: np.ones((4, 2))}, NEWTON)
+        self.assertNotIn("[0]", str(caught.exception))
         self.refused(lambda: ricochet.sweep(PENDULUM, {MU: []}, NEWTON), f"{MU}.list.values", "is empty")
         wrong = {"pendulum": {**PENDULUM["pendulum"], "a_m": -1}}
         for columns in ({}, {"normal_after_m_s": []}, {"rates_after": [[]]}):

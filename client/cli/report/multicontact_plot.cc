@@ -105,6 +105,7 @@ Panel StiffnessPanel(const MultiContactRequest& request, const MultiContactAnswe
   for (size_t i = start; i < names.size(); ++i) {
     Curve& curve = panel.curves.emplace_back(Curve{.title = names[i], .points = {}});
     for (const StiffnessSample& sample : samples) {
+      if (!HasEnded(sample.outcome)) continue;
       curve.points.emplace_back(sample.relative_stiffness, NumbersOf(sample.outcome)[i]);
     }
   }

@@ -17,6 +17,7 @@
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
+#include "core/base/decimal.h"
 #include "core/types/multi_contact.h"
 #include "proto/wire/multi_contact.h"
 
@@ -60,16 +61,14 @@ std::string WithUnit(const std::string& name, double value) {
 }
 
 // True if an outcome is known to its end.
-bool HasEnded(const MultiContactAnswer& answer) {
-  const auto ended = [](const AttainedOutcome& outcome) {
-    return outcome.end != MultiContactEnd::kBudgetUsedUp && outcome.end != MultiContactEnd::kUndetermined;
-  };
-  return std::any_of(answer.orders.begin(), answer.orders.end(), ended) ||
-         (answer.springs.has_value() && ended(*answer.springs));
+bool KnowsAnEnd(const MultiContactAnswer& answer) {
+  return std::any_of(answer.orders.begin(), answer.orders.end(), HasEnded) ||
+         (answer.springs.has_value() && HasEnded(*answer.springs));
 }
 
 std::string VerdictText(const MultiContactAnswer& answer) {
-  const bool are_orders = answer.outcome_1 != kSprings && answer.outcome_2 != kSprings;
+  const bool are_orders =
+      !absl::StartsWith(answer.outcome_1, kSprings) && !absl::StartsWith(answer.outcome_2, kSprings);
   const std::string difference = absl::StrCat(
       answer.differing_output, " differs by ", WithUnit(answer.differing_output, answer.difference), " between the ",
       are_orders ? "orders " : "order ", answer.outcome_1, " and ", answer.outcome_2, ".\n");
@@ -86,7 +85,9 @@ std::string VerdictText(const MultiContactAnswer& answer) {
     case MultiContactVerdict::kUnspecified:
       break;
   }
-  return HasEnded(answer)
+  if (answer.orders.empty() && !answer.springs.has_value()) return "Undecided: no outcome was computed.\n";
+  if (answer.orders.empty() && KnowsAnEnd(answer)) return "Undecided: springs alone were followed.\n";
+  return KnowsAnEnd(answer)
              ? "Undecided: the outcomes that ended do not differ by more than their errors, but others could "
                "not be found, or the errors are large.\n"
              : "Undecided: no outcome was followed to its end.\n";
@@ -164,7 +165,16 @@ std::string LedgerText(const MultiContactAnswer& answer) {
                  Rounded(ledger.work_friction_j), cell(ledger.newton), cell(ledger.poisson)});
     }
   }
-  return outcomes.empty() ? "" : absl::StrCat("\nWhat each contact did\n", table.Render(2));
+  std::string text = outcomes.empty() ? "" : absl::StrCat("\nWhat each contact did\n", table.Render(2));
+  for (const auto& [name, outcome] : outcomes) {
+    const std::vector<double>& errors = outcome->normal_impulse_error_n_s;
+    const bool are_known = std::isfinite(outcome->work_error_j) &&
+                           std::all_of(errors.begin(), errors.end(), [](double error) { return std::isfinite(error); });
+    if (!outcome->contacts.empty() && !are_known) {
+      absl::StrAppend(&text, "  The impulses and works of ", name, " have errors that are not known.\n");
+    }
+  }
+  return text;
 }
 
 std::string PossibleText(const MultiContactAnswer& answer) {
@@ -197,8 +207,11 @@ std::string CurveText(const MultiContactAnswer& answer) {
       absl::StrCat("\nOver relative stiffnesses from ", Rounded(answer.stiffness_samples.front().relative_stiffness),
                    " to ", Rounded(answer.stiffness_samples.back().relative_stiffness), ": ",
                    answer.stiffness_samples.size(), " outcomes of springs, which csv and json have");
+  const auto unended = std::count_if(answer.stiffness_samples.begin(), answer.stiffness_samples.end(),
+                                     [](const StiffnessSample& sample) { return !HasEnded(sample.outcome); });
+  if (unended > 0) absl::StrAppend(&text, "; ", unended, " of them have not ended, and count for no jump");
   for (const StiffnessJump& jump : answer.stiffness_jumps) {
-    absl::StrAppend(&text, "; a jump between ", Rounded(jump.low), " and ", Rounded(jump.high));
+    absl::StrAppend(&text, "; a jump between ", ShortestDecimal(jump.low), " and ", ShortestDecimal(jump.high));
   }
   return text + (answer.stiffness_jumps.empty() ? "; no jump\n" : "\n");
 }
@@ -238,6 +251,10 @@ void AddRow(const MultiContactRequest& request, size_t state, const std::string&
   AddNumbers(names, ".error", errors, row);
   AddNumbers(ContactOutputNames(request.scene.contacts.size(), DirectionsOf(request.scene)), ".impulse_n_s",
              outcome.impulse_n_s, row);
+  std::vector<std::string> contacts;
+  for (size_t i = 1; i <= request.scene.contacts.size(); ++i) contacts.push_back(absl::StrCat("contact_", i));
+  AddNumbers(contacts, ".n.impulse_n_s.error", outcome.normal_impulse_error_n_s, row);
+  row.Number("work_error_j", is_outcome ? std::optional(outcome.work_error_j) : std::nullopt);
   row.Number("energy_change_j", is_outcome ? std::optional(outcome.energy_change_j) : std::nullopt);
   std::vector<std::string> functions;
   for (const LinearOutput& output : request.outputs) AppendCsv(output.name, functions.emplace_back());
@@ -276,6 +293,10 @@ std::vector<double> NumbersOf(const AttainedOutcome& outcome) {
   std::vector<double> numbers = outcome.contact_velocity_m_s;
   numbers.insert(numbers.end(), outcome.velocity.begin(), outcome.velocity.end());
   return numbers;
+}
+
+bool HasEnded(const AttainedOutcome& outcome) {
+  return outcome.end != MultiContactEnd::kBudgetUsedUp && outcome.end != MultiContactEnd::kUndetermined;
 }
 
 std::string MultiContactText(const MultiContactRequest& request, const MultiContactResponse& response) {

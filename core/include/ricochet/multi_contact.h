@@ -222,7 +222,7 @@ struct MultiContactAnswer {
   // output by one unit takes the energy 1/(2 g).
   std::string differing_output;
   double difference = 0.0;
-  std::string outcome_1, outcome_2;  // The text of an order, or "springs".
+  std::string outcome_1, outcome_2;  // An order, "springs", or springs of a sample.
   std::vector<double> contact_velocity_before_m_s;
   double energy_before_j = 0.0;  // The least energy that goes with the contact velocity.
   bool jams = false;             // Impulses within the cones of friction exist that move nothing.

@@ -418,6 +418,22 @@ TEST(HardMultiContactTest, ACradleOfTenBallsEndsOnSprings) {
   EXPECT_EQ(answer.possible.size(), 18U + 30U);
 }
 
+// A state on the way says nothing of the outcome. Samples are named apart from the springs of the scene itself.
+TEST(HardMultiContactTest, SamplesThatHaveNotEndedMakeNoJump) {
+  const MultiContactScene cradle = RowOfBalls({1, 1, 1}, {1, 0, 0}, {1, 1});
+  const MultiContactAnswer wide =
+      AnswerTo({.scene = cradle, .stiffness_range = StiffnessRange{.contact = 2, .low = 1.0, .high = 1e12}});
+  const auto unended =
+      std::count_if(wide.stiffness_samples.begin(), wide.stiffness_samples.end(),
+                    [](const StiffnessSample& sample) { return sample.outcome.end == MultiContactEnd::kBudgetUsedUp; });
+  EXPECT_GT(unended, 0);
+  EXPECT_TRUE(wide.stiffness_jumps.empty());
+  const MultiContactAnswer narrow =
+      AnswerTo({.scene = cradle, .stiffness_range = StiffnessRange{.contact = 1, .low = 0.01, .high = 1.0}});
+  EXPECT_EQ(narrow.verdict, MultiContactVerdict::kOrdersAgreeSpringsDiffer);
+  EXPECT_EQ(narrow.outcome_2.rfind("springs at the relative stiffness ", 0), 0U) << narrow.outcome_2;
+}
+
 // Three feet on one floor: W has rank 2 in the normals, and the impulses of springs are still unique.
 TEST(HardMultiContactTest, ThreeFeetShareTheLoadOfEqualSprings) {
   MultiContactScene scene = FallingBlock(0.5, 0.5);
