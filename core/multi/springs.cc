@@ -347,12 +347,15 @@ class Motion {
     event_.reset();
     if (first != nullptr) {
       ++result_.events;
-      // Contacts that hold each other divide friction anew after each event, until all reach their cones at once.
       event_ = Event{.contacts = ContactsOf(*first, s), .keeps = first->keeps, .has_tie = s <= kZeroOfEvent};
       for (int i = 0; i < k_; ++i) {
         if (StopsWithOthers(i)) modes_[At(i)].slip = 0;
       }
       AddEventError(*first, s);
+      // Where contacts hold each other, one that reaches its cone stays on it while the others take the rest. If they
+      // divided friction anew, they would reach their cones again and again.
+      if (flow_->split_is_free() && first->keeps == Keeps::kConeAbove) modes_[At(first->contact)].slip = -1;
+      if (flow_->split_is_free() && first->keeps == Keeps::kConeBelow) modes_[At(first->contact)].slip = 1;
       if (first->keeps == Keeps::kPressed) Open(first->contact);
       if (first->keeps == Keeps::kGap) {
         state_.g[At(first->contact)] = 0.0;

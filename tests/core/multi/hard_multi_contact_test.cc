@@ -434,6 +434,45 @@ TEST(HardMultiContactTest, SamplesThatHaveNotEndedMakeNoJump) {
   EXPECT_EQ(narrow.outcome_2.rfind("springs at the relative stiffness ", 0), 0U) << narrow.outcome_2;
 }
 
+// Feet on one floor share friction in any way. One after the other reaches its cone, and then all slip. The numbers are
+// those of small steps (explicit, h -> 0), to some 1e-2, and of the same scene with one foot raised by 1e-9 m.
+TEST(HardMultiContactTest, FeetThatReachTheirConesOneAfterTheOtherSlipAtLast) {
+  struct Foot {
+    double x, mu, e, stiffness;
+  };
+  struct Fall {
+    double inertia, height, u, rate;
+    std::vector<Foot> feet;
+    std::array<double, 3> after;
+  };
+  const std::vector<Fall> falls = {
+      {1.0 / 6.0, 0.5, 0.3, -0.3, {{-0.5, 0.3, 1, 2}, {0, 0.3, 1, 1}, {0.5, 0.3, 1, 0.5}}, {0.2314, 1.0154, -0.1831}},
+      {0.5, 1.5, -1, 0, {{-0.9, 0.2, 1, 0.5}, {0.2, 0.2, 0.5, 0.25}, {1, 1, 1, 1}}, {-0.6143, 1.0615, -0.3941}}};
+  for (const Fall& fall : falls) {
+    MultiContactScene scene;
+    FreeBodies bodies;
+    bodies.bodies.push_back({.mass_kg = 1.0,
+                             .inertia_com_kg_m2 = {fall.inertia},
+                             .position_m = {0.0, fall.height},
+                             .linear_m_s = {fall.u, -1.0},
+                             .angular_rad_s = {fall.rate}});
+    scene.system = std::move(bodies);
+    for (const Foot& foot : fall.feet) {
+      scene.contacts.push_back({.friction = foot.mu,
+                                .energetic = foot.e,
+                                .relative_stiffness = foot.stiffness,
+                                .body = 1,
+                                .point_m = {foot.x, 0.0},
+                                .normal = {0.0, 1.0}});
+    }
+    const MultiContactAnswer answer = AnswerTo({.scene = scene, .methods = {MultiContactMethod::kSprings}});
+    ASSERT_TRUE(answer.springs.has_value());
+    EXPECT_EQ(answer.springs->end, MultiContactEnd::kSeparated);
+    for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(answer.springs->velocity[i], fall.after[i], 1e-4);
+    EXPECT_FALSE(answer.springs->friction_split_is_unique);
+  }
+}
+
 // Three feet on one floor: W has rank 2 in the normals, and the impulses of springs are still unique.
 TEST(HardMultiContactTest, ThreeFeetShareTheLoadOfEqualSprings) {
   MultiContactScene scene = FallingBlock(0.5, 0.5);
