@@ -68,7 +68,7 @@ std::vector<BadInput> Flags() {
       {{"solve", "--scene", std::string(300, 'a')}, "aaa: File name too long", ""},
       {{"plot", std::string(300, 'a')}, "aaa: File name too long", ""},
       {{"audit", "--a", "0.3", "--b", "1", "--data", "/tmp", "-o", "out.csv"}, "cannot read /tmp: Is a directory", ""},
-      {{"conformance", "grade", "-", "--tolerance", "inf"}, "--tolerance = inf: must be above 0, and finite", ""},
+      {{"conformance", "grade", "-", "--tolerance", "inf"}, "--tolerance = inf: must be above 0 and below 1e100", ""},
       {Plus(kSolve, {"--history", "65536"}), "--history = 65536: must be in [1, 65535]", ""},
       {Plus(kSolve, {"--history", "2.5"}), "--history = 2.5: must be a whole number", ""},
       {Plus(kSolve, {"--deadline", "1s"}), "--deadline needs --server", ""},

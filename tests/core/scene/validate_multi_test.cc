@@ -54,8 +54,13 @@ TEST(ValidateMultiTest, AMatrixIsSymmetricSemidefiniteAndHoldsTheVelocityInItsRa
   MultiContactRequest request = {.scene = MatrixScene()};
   auto& matrix = std::get<ContactMatrix>(request.scene.system);
   matrix.w_per_kg[4] = 0.26;
-  EXPECT_THAT(TextsOf(request), ElementsAre("contact_matrix.w_per_kg[4] = 0.26: must be that of its transpose, 0.25"));
+  EXPECT_THAT(TextsOf(request), ElementsAre("contact_matrix.w_per_kg[4] = 0.26: must be that of its transpose, 0.25; "
+                                            "take (W + W^T)/2 if they differ by rounding"));
   matrix.w_per_kg[4] = 0.25;
+  matrix.w_per_kg[0] *= -1.0;
+  EXPECT_THAT(TextsOf(request), ElementsAre(testing::MatchesRegex(
+                                    "contact_matrix.w_per_kg\\[0\\] = -.*: must be >= 0, as it is on the diagonal")));
+  matrix.w_per_kg[0] *= -1.0;
   matrix.w_per_kg[7] = matrix.w_per_kg[13] = -1.6;
   ASSERT_EQ(TextsOf(request).size(), 1U);
   EXPECT_THAT(TextsOf(request).front(), testing::HasSubstr("must be positive semidefinite"));
