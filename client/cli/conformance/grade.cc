@@ -110,8 +110,10 @@ VectorXd OutsideCones(const ConformanceCase& one, const VectorXd& change) {
   VectorXd least = left(middle);
   if (one.dimension == 2) return least;
   // A pyramid has an edge in each quarter of a turn.
+  constexpr int kSteps = 31;
   constexpr double kShrinks = 0.6;
-  for (double step = 0.5; step > 1e-7; step *= kShrinks) {
+  double step = 0.5;
+  for (int i = 0; i < kSteps; ++i, step *= kShrinks) {
     for (const double angle : {middle - step, middle + step}) {
       const VectorXd beside = left(angle);
       if (!(beside.squaredNorm() < least.squaredNorm())) continue;
