@@ -67,7 +67,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
   SetErrors(impact.errors, outcome);
   // If the path overflows, not even the regime is known, so that the outcome is checked in every case.
   if (!std::isfinite(impact.u1)) return CheckFinite(outcome);
-  const absl::Status status = Complete(
+  absl::Status status = Complete(
       detail, [&] { return TimelineOf(problem, impact, reduction); }, NoPath, outcome);
   CutTimeline(outcome);
   return status;

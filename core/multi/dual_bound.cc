@@ -10,7 +10,7 @@
 namespace ricochet::multi {
 namespace {
 
-using Intervals = std::array<Interval, 3 * kMostContacts>;
+using Intervals = std::array<Interval, size_t{3} * kMostContacts>;
 
 Intervals Times(const Eigen::MatrixXd& w, const Eigen::VectorXd& x) {
   Intervals product;

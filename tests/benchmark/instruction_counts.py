@@ -4,7 +4,8 @@
 usage: instruction_counts.py PROGRAM RECORD
 
 Instructions do not depend on the speed of the machine, nor on what else it does. RICOCHET_UPDATE_COUNTS=1 writes the
-record anew. Ends with 77 where the record says nothing: without valgrind, or on a processor without AVX2.
+record anew. Ends with 77 where the record says nothing: without valgrind, on a processor without AVX2, or on one without
+RDTSCP, an instruction that Highway executes when it is loaded and that valgrind then refuses.
 """
 
 import os
@@ -59,6 +60,10 @@ def main():
     if shutil.which("valgrind") is None:
         print("valgrind is not installed")
         sys.exit(CANNOT_RUN)
+    with open("/proc/cpuinfo", encoding="utf-8") as processor:
+        if not re.search(r"^flags\s*:.*\brdtscp\b", processor.read(), re.MULTILINE):
+            print("the processor has no RDTSCP")
+            sys.exit(CANNOT_RUN)
     counts = count(program)
     if empty := [name for name, instructions in counts.items() if instructions == 0]:
         sys.exit(f"nothing was counted of {', '.join(empty)}")
