@@ -12,6 +12,7 @@
 #include "core/cost/methods_by_model.h"
 #include "core/multi/solve_multi_contact.h"
 #include "core/scene/validate_multi.h"
+#include "core/types/multi_contact.h"
 
 namespace ricochet {
 namespace {
@@ -68,8 +69,7 @@ KernelAnswer Read(const MultiContactAnswer& answer, MultiContactMethod method, d
   if (method == MultiContactMethod::kPossible) return ReadPossible(answer, speed);
   std::vector<const AttainedOutcome*> outcomes;
   const auto add = [&outcomes](const AttainedOutcome& one) {
-    const bool has_end = one.end != MultiContactEnd::kBudgetUsedUp && one.end != MultiContactEnd::kUndetermined;
-    if (has_end) outcomes.push_back(&one);
+    if (HasEnd(one.end)) outcomes.push_back(&one);
   };
   std::for_each(answer.orders.begin(), answer.orders.end(), add);
   if (answer.springs.has_value()) add(*answer.springs);

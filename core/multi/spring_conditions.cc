@@ -26,8 +26,7 @@ std::vector<Condition> ConditionsOf(const Problem& problem, const Modes& modes, 
     }
     const bool is_event = event.has_value() && event->contacts[At(contact)] && event->keeps == keeps;
     const bool has_tie = event.has_value() && event->has_tie;
-    const bool is_cone = keeps == Keeps::kConeAbove || keeps == Keeps::kConeBelow;
-    if (is_event || (has_tie && is_cone)) TakeForZero(0, condition.series);
+    if (is_event || (has_tie && IsCone(keeps))) TakeForZero(0, condition.series);
     // Where all friction is used up, slip starts without an acceleration.
     if (has_tie && keeps == Keeps::kSlip) TakeForZero(1, condition.series);
     condition.lead = condition.series.Lead();

@@ -20,6 +20,7 @@ inline constexpr double kZeroOfEvent = 1e-10;
 
 // The function that has to stay >= 0 for a contact to keep its mode.
 enum class Keeps { kGap, kPressed, kApproaching, kParting, kSlip, kConeAbove, kConeBelow };
+constexpr bool IsCone(Keeps keeps) { return keeps == Keeps::kConeAbove || keeps == Keeps::kConeBelow; }
 
 struct Condition {
   int contact = 0;

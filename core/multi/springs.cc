@@ -354,8 +354,9 @@ class Motion {
       AddEventError(*first, s);
       // Where contacts hold each other, one that reaches its cone stays on it while the others take the rest. If they
       // divided friction anew, they would reach their cones again and again.
-      if (flow_->split_is_free() && first->keeps == Keeps::kConeAbove) modes_[At(first->contact)].slip = -1;
-      if (flow_->split_is_free() && first->keeps == Keeps::kConeBelow) modes_[At(first->contact)].slip = 1;
+      if (flow_->split_is_free() && IsCone(first->keeps)) {
+        Change(*first, state_.f[At(first->contact)], modes_[At(first->contact)]);
+      }
       if (first->keeps == Keeps::kPressed) Open(first->contact);
       if (first->keeps == Keeps::kGap) {
         state_.g[At(first->contact)] = 0.0;

@@ -1,4 +1,4 @@
-// The names of the numbers that an answer about several contacts has, in their order.
+// What an answer about several contacts says: whether an outcome has an end, and the names of its numbers, in order.
 
 #ifndef RICOCHET_CORE_TYPES_MULTI_CONTACT_H_
 #define RICOCHET_CORE_TYPES_MULTI_CONTACT_H_
@@ -10,6 +10,11 @@
 #include "ricochet/multi_contact.h"
 
 namespace ricochet {
+
+// True unless the numbers are those of a state on the way to an end that is not known.
+constexpr bool HasEnd(MultiContactEnd end) {
+  return end != MultiContactEnd::kBudgetUsedUp && end != MultiContactEnd::kUndetermined;
+}
 
 // "contact_1.t", "contact_1.n", ... or t1, t2 and n.
 std::vector<std::string> ContactOutputNames(size_t contacts, int directions);

@@ -82,7 +82,7 @@ MatrixXd EdgeImpulses(const ConformanceCase& one, const MatrixXd& edges) {
 // Returns what is left of the change of velocity after the impulse within the pyramids that leaves the least sum of
 // squares. `effects` are the changes that unit impulses cause.
 VectorXd OutsidePyramids(const ConformanceCase& one, const MatrixXd& effects, const VectorXd& change, double angle) {
-  // The effects of unit length, so that those on heavy bodies count as those on light ones.
+  // Effects are scaled to unit length, so that those on heavy bodies count as those on light ones.
   const MatrixXd edges = (effects * EdgeImpulses(one, Edges(one.dimension, angle))).colwise().normalized();
   VectorXd least = change;
   // The nearest impulse lies on a face of the cones: on the edges of one subset.

@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/report/multicontact_report.h"
 #include "client/cli/text/enum_names.h"
+#include "core/types/multi_contact.h"
 #include "proto/wire/multi_contact.h"
 
 namespace ricochet::cli {
@@ -105,7 +106,7 @@ Panel StiffnessPanel(const MultiContactRequest& request, const MultiContactAnswe
   for (size_t i = start; i < names.size(); ++i) {
     Curve& curve = panel.curves.emplace_back(Curve{.title = names[i], .points = {}});
     for (const StiffnessSample& sample : samples) {
-      if (!HasEnded(sample.outcome)) continue;
+      if (!HasEnd(sample.outcome.end)) continue;
       curve.points.emplace_back(sample.relative_stiffness, NumbersOf(sample.outcome)[i]);
     }
   }

@@ -62,8 +62,9 @@ std::string WithUnit(const std::string& name, double value) {
 
 // True if an outcome is known to its end.
 bool KnowsAnEnd(const MultiContactAnswer& answer) {
-  return std::any_of(answer.orders.begin(), answer.orders.end(), HasEnded) ||
-         (answer.springs.has_value() && HasEnded(*answer.springs));
+  const auto has_end = [](const AttainedOutcome& outcome) { return HasEnd(outcome.end); };
+  return std::any_of(answer.orders.begin(), answer.orders.end(), has_end) ||
+         (answer.springs.has_value() && has_end(*answer.springs));
 }
 
 std::string VerdictText(const MultiContactAnswer& answer) {
@@ -208,7 +209,7 @@ std::string CurveText(const MultiContactAnswer& answer) {
                    " to ", Rounded(answer.stiffness_samples.back().relative_stiffness), ": ",
                    answer.stiffness_samples.size(), " outcomes of springs, which csv and json have");
   const auto unended = std::count_if(answer.stiffness_samples.begin(), answer.stiffness_samples.end(),
-                                     [](const StiffnessSample& sample) { return !HasEnded(sample.outcome); });
+                                     [](const StiffnessSample& sample) { return !HasEnd(sample.outcome.end); });
   if (unended > 0) absl::StrAppend(&text, "; ", unended, " of them have not ended, and count for no jump");
   for (const StiffnessJump& jump : answer.stiffness_jumps) {
     absl::StrAppend(&text, "; a jump between ", ShortestDecimal(jump.low), " and ", ShortestDecimal(jump.high));
@@ -293,10 +294,6 @@ std::vector<double> NumbersOf(const AttainedOutcome& outcome) {
   std::vector<double> numbers = outcome.contact_velocity_m_s;
   numbers.insert(numbers.end(), outcome.velocity.begin(), outcome.velocity.end());
   return numbers;
-}
-
-bool HasEnded(const AttainedOutcome& outcome) {
-  return outcome.end != MultiContactEnd::kBudgetUsedUp && outcome.end != MultiContactEnd::kUndetermined;
 }
 
 std::string MultiContactText(const MultiContactRequest& request, const MultiContactResponse& response) {

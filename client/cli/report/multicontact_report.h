@@ -21,9 +21,6 @@ std::string MultiContactCsv(const MultiContactRequest& request, const MultiConta
 // velocities of the system if they are others.
 std::vector<std::string> OutputNames(const MultiContactRequest& request);
 
-// True unless the outcome is a state on the way to an end that is not known.
-bool HasEnded(const AttainedOutcome& outcome);
-
 // The numbers that have these names.
 std::vector<double> NumbersOf(const AttainedOutcome& outcome);
 

@@ -601,7 +601,7 @@ TEST(SceneOutcomeTest, SpringsAgreeWithRigidContactBesideTheRange) {
   EXPECT_GT(jams, 3);
 }
 
-// With a tangential spring, as the numbers Wtt, Wtn, Wnn, u0, mu and eta say; v0 = -1.
+// Solves a contact on a tangential spring; the numbers are Wtt, Wtn, Wnn, u0, mu and eta, and v0 = -1.
 Outcome OnSpring(const std::array<double, 6>& numbers, double ratio_squared) {
   const auto [tt, tn, nn, u0, mu, eta] = numbers;
   Scene scene = With(PlanarContact{tt, tn, nn, u0, -1.0}, mu, EnergeticCoefficient{eta});
