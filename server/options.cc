@@ -510,7 +510,7 @@ CommandLine DeclareOptions() {
 int64_t LeastCallMemoryMib(const Limits& limits) {
   constexpr int64_t kMiB = int64_t{1} << 20;
   constexpr int64_t kLeastMib = 32;
-  // What a batch holds is at most twice its bytes. Its answer is held as a message and as bytes, and in each of them a
+  // A batch takes at most twice its bytes. Its answer is held as a message and as bytes, and in each of them a
   // number takes 8 bytes and a regime at most 2.
   const int64_t of_peer = 2 * limits.max_request_bytes + 20 * limits.max_batch_numbers;
   return std::max(kLeastMib, (of_peer * 4 / 3 + kMiB - 1) / kMiB);

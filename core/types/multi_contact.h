@@ -1,4 +1,4 @@
-// What an answer about several contacts says: whether an outcome has an end, and the names of its numbers, in order.
+// Whether an outcome of several contacts has an end, and the names of the numbers of an answer, in their order.
 
 #ifndef RICOCHET_CORE_TYPES_MULTI_CONTACT_H_
 #define RICOCHET_CORE_TYPES_MULTI_CONTACT_H_

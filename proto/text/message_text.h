@@ -18,7 +18,7 @@ namespace ricochet {
 // empty text if it is one.
 std::string WhyNoMessage(const std::string& path, const std::string& text, google::protobuf::Message& message);
 
-// What the file of a scene holds, one contact or several. It is read likewise.
+// The scene of a file, with one contact or several. It is read likewise.
 using AnyScene = std::variant<v1::Scene, v1::MultiContactScene>;
 std::string WhyNoScene(const std::string& path, const std::string& text, AnyScene& scene);
 

@@ -33,7 +33,7 @@ class CallMemory {
   explicit CallMemory(int64_t bytes) : bytes_(bytes), bytes_of_peer_(bytes - bytes / 4) {}
 
   // Takes memory for a message of so many bytes, which this object must outlive. `peer` says who sends or reads it.
-  // What is larger than a limit is allowed while nothing else counts against that limit.
+  // A message larger than a limit is allowed while nothing else counts against that limit.
   // Errors: RESOURCE_EXHAUSTED with kTooManyCalls and a retry delay while a limit is reached.
   absl::StatusOr<Hold> Take(absl::FunctionRef<std::string()> peer, int64_t bytes);
 
