@@ -4,39 +4,23 @@
 usage: instruction_counts.py PROGRAM RECORD
 
 Instructions do not depend on the speed of the machine, nor on what else it does. RICOCHET_UPDATE_COUNTS=1 writes the
-record anew. Ends with 77 where the record says nothing: without valgrind, on a processor without AVX2, or on one without
-RDTSCP, an instruction that Highway executes when it is loaded and that valgrind then refuses.
+record anew. Ends with 77 where nothing can be counted, or on a processor without AVX2, where the record says nothing.
 """
 
 import os
 import re
-import shutil
-import subprocess
 import sys
-import tempfile
 
-from plan_cost import Profile
+import callgrind
 
 MOST_GROWTH = 0.05
-CANNOT_RUN = 77
 
 
 def count(program):
     """Returns the instructions of each piece of work by name, with all that it calls."""
-    with tempfile.TemporaryDirectory() as directory:
-        out = os.path.join(directory, "out")
-        command = ["valgrind", "--tool=callgrind", "--collect-atstart=no", "--toggle-collect=*Counted<*",
-                   f"--callgrind-out-file={out}", program]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode == CANNOT_RUN:
-            print(done.stderr)
-            sys.exit(CANNOT_RUN)
-        if done.returncode != 0:
-            sys.exit(f"{' '.join(command)} failed:\n{done.stderr}")
-        with open(out, encoding="utf-8") as lines:
-            inclusive = Profile(lines, 0).inclusive
+    names, inclusive = callgrind.run("*Counted<*", program)
     counts = {}
-    for number, name in enumerate(done.stdout.split()):
+    for number, name in enumerate(names.split()):
         wanted = re.compile(rf"::Counted<{number}ul>\(")
         counts[name] = sum(cost for function, cost in inclusive.items() if wanted.search(function))
     return counts
@@ -57,13 +41,9 @@ def write(path, counts):
 
 def main():
     program, record = sys.argv[1:]
-    if shutil.which("valgrind") is None:
-        print("valgrind is not installed")
-        sys.exit(CANNOT_RUN)
-    with open("/proc/cpuinfo", encoding="utf-8") as processor:
-        if not re.search(r"^flags\s*:.*\brdtscp\b", processor.read(), re.MULTILINE):
-            print("the processor has no RDTSCP")
-            sys.exit(CANNOT_RUN)
+    if obstacle := callgrind.obstacle():
+        print(f"Instructions are not counted: {obstacle}.")
+        sys.exit(callgrind.CANNOT_RUN)
     counts = count(program)
     if empty := [name for name, instructions in counts.items() if instructions == 0]:
         sys.exit(f"nothing was counted of {', '.join(empty)}")

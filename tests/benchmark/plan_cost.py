@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 """Instructions and heap allocations of a solve, counted by callgrind: python3 plan_cost.py RICOCHET_PLAN_COST."""
 
-import collections
-import os
 import re
 import subprocess
 import sys
-import tempfile
+
+import callgrind
 
 COUNT = 20
 # A solve should execute at most so many instructions, by its system, and how often it should ask for memory.
@@ -29,29 +28,11 @@ MODELS = {
 
 
 class Profile:
-    """What COUNT solves executed, each function with all that it calls, and how often they asked for memory."""
+    """What a solve executes, each function with all that it calls, and how often it asks for memory."""
 
-    def __init__(self, lines, allocations):
-        self.inclusive = collections.Counter()
-        self.allocations = allocations / COUNT
-        names, function, callee, is_call = {}, None, None, False
-        for line in lines:
-            named = re.match(r"(c?fn)=\((\d+)\)(?: (.*))?", line)
-            if named:
-                kind, number, name = named.groups()
-                if name is not None:
-                    names[number] = name
-                if kind == "fn":
-                    function = names[number]
-                else:
-                    callee = names[number]
-            elif line.startswith("calls="):
-                is_call = True
-            elif re.match(r"[+*\d-]", line):
-                # Position and cost; after calls= the cost is that of the calls.
-                if not (is_call and callee == function):
-                    self.inclusive[function] += int(line.split()[1])
-                is_call = False
+    def __init__(self, program, case):
+        allocations, self.inclusive = callgrind.run("*SolveRepeatedly*", program, case, str(COUNT))
+        self.allocations = int(allocations) / COUNT
 
     def instructions(self, name):
         """A solve's, in the functions whose qualified names begin so; they must not call each other."""
@@ -59,23 +40,11 @@ class Profile:
         return sum(cost for function, cost in self.inclusive.items() if wanted.search(function)) / COUNT
 
 
-def profile(program, case):
-    with tempfile.TemporaryDirectory() as directory:
-        out = os.path.join(directory, "out")
-        command = ["valgrind", "--tool=callgrind", "--collect-atstart=no", "--toggle-collect=*SolveRepeatedly*",
-                   f"--callgrind-out-file={out}", program, case, str(COUNT)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            sys.exit(f"{' '.join(command)} failed:\n{done.stderr}")
-        with open(out, encoding="utf-8") as lines:
-            return Profile(lines, int(done.stdout))
-
-
 def print_solves(program, cases):
     print("One solve in this process, with the defaults of a request, from the request until its answer is freed:")
     print(f"{'system':<22} {'instructions':>12} {'goal':>6} {'allocations':>12} {'goal':>6}")
     for case in cases:
-        measured = profile(program, case)
+        measured = Profile(program, case)
         goal = GOALS.get(case, "")
         print(f"{case:<22} {measured.instructions(SOLVE):12.0f} {goal:>6} {measured.allocations:12.0f} "
               f"{MOST_ALLOCATIONS if goal else '':>6}")
@@ -85,7 +54,7 @@ def print_effects(program, effects):
     print("\nInstructions of a solve without each effect, and of one with it. 'rest' is what puts the answer together.")
     print(f"{'effect':<22} {'validate':>9} {'plan':>7} {'model':>9} {'rest':>7} {'solve':>9} {'solve with it':>14}")
     for effect in effects:
-        off, on = (profile(program, f"{effect}.{state}") for state in ("off", "on"))
+        off, on = (Profile(program, f"{effect}.{state}") for state in ("off", "on"))
         validate, plan, model = (off.instructions(name) for name in (VALIDATE, PLAN, MODELS[effect]))
         if not (validate and plan and model):
             sys.exit(f"{effect}: one of {VALIDATE}, {PLAN}, {MODELS[effect]} was not called")
@@ -96,6 +65,9 @@ def print_effects(program, effects):
 
 def main():
     program = sys.argv[1]
+    if obstacle := callgrind.obstacle():
+        print(f"Instructions are not counted: {obstacle}.")
+        return
     names = subprocess.run([program], capture_output=True, text=True, check=True).stdout.split()
     print("Counted by callgrind, each function with all that it calls.\n")
     print_solves(program, [name for name in names if "." not in name])
