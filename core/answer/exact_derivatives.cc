@@ -21,10 +21,12 @@ constexpr double kBeside = 0x1p-300;
 constexpr size_t kOutputs = kPlanarOutputPaths.size();
 // Two rates that differ by less than this part of them are one. So are those that differ by less than kNegligible of
 // the largest rate of any number of the outcome, each over its size: what cancels in them leaves as much. Beside a
-// number that is 0 kSlight comes from what the derivative itself changes by between the sides.
+// number that is 0 kSlight comes from what the derivative itself changes by between the sides. A doubling of the number
+// that changes the outcome by less than kUnseen of its size is rounding on both sides.
 constexpr double kRounding = 0x1p-40;
 constexpr double kNegligible = 0x1p-60;
 constexpr double kSlight = 0x1p-200;
+constexpr double kUnseen = 0x1p-80;
 
 constexpr size_t PlaceOf(PlanarOutput output) { return static_cast<size_t>(output); }
 
@@ -196,17 +198,22 @@ OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
   if (LosesRank(side)) {
     return {.why_none = "the rank of W, or whether the velocity lies in its range, changes at once"};
   }
-  const double value = ValueAt(place, ReductionOf(side), impacts_[side.impact].tangent.value);
-  const double rate = RateOf(side, place);
-  if (!std::isfinite(value) || !std::isfinite(rate)) {
+  if (!std::isfinite(ValueAt(place, ReductionOf(side), impacts_[side.impact].tangent.value)) ||
+      !std::isfinite(RateOf(side, place))) {
     return {.why_none = "the number jumps or changes infinitely fast"};
   }
+  if (Jumps(side, place)) return {.why_none = "the number jumps"};
+  return {.rate = RateOf(side, place) + 0.0};
+}
+
+bool ExactDerivatives::Jumps(const Side& side, size_t place) const {
+  const double value = ValueAt(place, ReductionOf(side), impacts_[side.impact].tangent.value);
   const double here = ValueAt(place, std::get<PlanarReduction>(here_->reduction), values_here_);
   const double size = std::max({std::fabs(here), std::fabs(value), SizeOf(place)});
-  // A number that depends on one which is moved beside 0 moves with it.
-  const double moved = IsMoved(side) ? 2.0 * std::fabs(rate * side.step) : 0.0;
-  if (std::fabs(value - here) > std::max(0x1p-30 * size, moved)) return {.why_none = "the number jumps"};
-  return {.rate = rate + 0.0};
+  // A number that depends on one which is moved beside 0 moves with it, linearly or with a power of it; one that grows
+  // without bound as that falls to 0 moves against its own slope.
+  const double moved = IsMoved(side) ? RateOf(side, place) * side.step : 0.0;
+  return !(std::fabs(value - here - moved) <= std::max(0x1p-30 * size, std::fabs(moved)));
 }
 
 Threshold ExactDerivatives::ThresholdOf(const Number& number) const {
@@ -237,7 +244,8 @@ double ExactDerivatives::LargestRate(const Number& number) const {
 double ExactDerivatives::LargestRate(const Number& number, size_t place) const {
   double largest = 0.0;
   for (const Side* const side : {&number.below, &number.above}) {
-    if (side->exists) largest = std::max(largest, std::fabs(RateOf(*side, place)));
+    // The slope of a number that jumps beside 0 is rounding over the distance from it.
+    if (side->exists && !Jumps(*side, place)) largest = std::max(largest, std::fabs(RateOf(*side, place)));
   }
   return largest;
 }
@@ -250,7 +258,7 @@ Derivative ExactDerivatives::At(size_t of, size_t by) const {
   bool agree =
       both && std::fabs(*below.rate - *above.rate) <= kRounding * (std::fabs(*below.rate) + std::fabs(*above.rate));
   if (both && !agree) {
-    const double slight = IsMoved(number.above) ? kSlight : 0.0;
+    const double slight = IsMoved(number.above) ? kSlight : kUnseen / std::fabs(number.above.step);
     const double least = SizeOf(places_[of]) * std::max(slight, kNegligible * LargestRate(number));
     agree = std::fabs(*below.rate - *above.rate) <= least;
     if (agree) below.rate = above.rate = 0.5 * (*below.rate + *above.rate);

@@ -73,6 +73,8 @@ class ExactDerivatives {
   double SizeOf(size_t place) const;
   // The larger rate of both sides, and the largest of any number of the outcome, over its size.
   double LargestRate(const Number& number, size_t place) const;
+  // True if the number at `place` is another beside the scene than in it.
+  bool Jumps(const Side& side, size_t place) const;
   double LargestRate(const Number& number) const;
   static bool IsMoved(const Side& side);
   OneSided LimitOf(const Side& side, size_t place) const;

@@ -179,8 +179,8 @@ void SetCoefficients(const Scene& scene, const SceneContact& contact, const Scen
 }  // namespace
 
 struct ContactTangents::Bodies {
-  explicit Bodies(const System& system)
-      : motion(MotionOf(system)), free(FreeCoordinatesOf(system, motion.rates.size())) {
+  Bodies(const System& system, bool w_is_rank_one)
+      : motion(MotionOf(system)), free(FreeCoordinatesOf(system, motion.rates.size())), is_rank_one(w_is_rank_one) {
     if (free.empty()) return;
     cholesky.compute(motion.mass(free, free));
     response = cholesky.solve(motion.jt(free, Eigen::all));
@@ -193,7 +193,7 @@ struct ContactTangents::Bodies {
     tangent.v0 = d_velocity(1);
     tangent.before.assign(d.rates.begin(), d.rates.end());
     tangent.response.resize(static_cast<size_t>(2 * d.rates.size()));
-    tangent.keeps_rank_one = free.size() == 1;
+    if (is_rank_one) tangent.keeps_rank_one = KeepsRowsParallel(d.jt);
     if (free.empty()) return;  // No impulse moves anything.
     const MatrixXd d_mass = d.mass(free, free);
     const MatrixXd d_jt = d.jt(free, Eigen::all);
@@ -208,8 +208,28 @@ struct ContactTangents::Bodies {
     }
   }
 
+  // True if the rows of J, which are parallel in the free coordinates, stay so along a direction of J: all minors of
+  // J + s dJ vanish for every s, to within rounding. M does not change the rank of J M^-1 J^T.
+  bool KeepsRowsParallel(const MatrixXd& d_jt) const {
+    const auto vanishes = [](double a, double b, double c, double d) {
+      constexpr double kOfRounding = 0x1p-44;
+      return std::fabs(a - b + c - d) <= kOfRounding * (std::fabs(a) + std::fabs(b) + std::fabs(c) + std::fabs(d));
+    };
+    const MatrixXd& jt = motion.jt;
+    for (const Index i : free) {
+      for (const Index k : free) {
+        if (!vanishes(jt(i, 0) * d_jt(k, 1), jt(k, 0) * d_jt(i, 1), d_jt(i, 0) * jt(k, 1), d_jt(k, 0) * jt(i, 1)) ||
+            !vanishes(d_jt(i, 0) * d_jt(k, 1), d_jt(k, 0) * d_jt(i, 1), 0.0, 0.0)) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
   Motion motion;
   std::vector<Index> free;
+  bool is_rank_one;
   // These belong to the free coordinates and are unset if there are none.
   Eigen::LLT<MatrixXd> cholesky;
   MatrixXd response;
@@ -228,7 +248,11 @@ ContactTangent operator-(ContactTangent tangent) {
 }
 
 ContactTangents::ContactTangents(const Scene& scene, const SceneContact& contact) : scene_(scene), contact_(contact) {
-  if (!std::holds_alternative<PlanarContact>(scene.system)) bodies_ = std::make_unique<const Bodies>(scene.system);
+  const auto& [tt, tn, nn] = std::get<PlanarReduction>(contact.reduction).w;
+  is_rank_one_ = PlanarDelassus{tt, tn, nn}.Rank() == 1;
+  if (!std::holds_alternative<PlanarContact>(scene.system)) {
+    bodies_ = std::make_unique<const Bodies>(scene.system, is_rank_one_);
+  }
 }
 
 ContactTangents::~ContactTangents() = default;
@@ -240,6 +264,10 @@ ContactTangent ContactTangents::Along(const Scene& direction) const {
   } else {
     const auto& d = std::get<PlanarContact>(direction.system);
     tangent.w = {d.w_tt_per_kg, d.w_tn_per_kg, d.w_nn_per_kg};
+    // The determinant of W + s dW is 0 for every s.
+    const auto& [tt, tn, nn] = std::get<PlanarReduction>(contact_.reduction).w;
+    tangent.keeps_rank_one = is_rank_one_ && tangent.w.tt * nn + tt * tangent.w.nn == 2.0 * tn * tangent.w.tn &&
+                             tangent.w.tt * tangent.w.nn == tangent.w.tn * tangent.w.tn;
     tangent.u0 = d.tangential_m_s;
     tangent.v0 = d.normal_m_s;
   }

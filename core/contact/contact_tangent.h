@@ -29,8 +29,7 @@ struct ContactTangent {
   std::vector<double> before, response;  // PlanarReduction explains both.
   // The tangent along the opposite direction is the opposite of this.
   bool is_linear = false;
-  // One coordinate alone is free, so that W has rank one whatever the numbers are.
-  bool keeps_rank_one = false;
+  bool keeps_rank_one = false;        // W has rank one and keeps it along the direction.
   bool is_at_speed_of_table = false;  // The approach speed is one that a table lists.
 };
 
@@ -54,6 +53,7 @@ class ContactTangents {
 
   const Scene& scene_;
   const SceneContact& contact_;
+  bool is_rank_one_;
   std::unique_ptr<const Bodies> bodies_;  // Unset if W is given.
 };
 

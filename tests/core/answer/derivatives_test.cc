@@ -625,6 +625,32 @@ TEST(DerivativesTest, ContactThatJustApproachesHasBothVelocitiesButNoCoefficient
   EXPECT_EQ(coefficient.from_above, 0.0);
 }
 
+// A contact that just approaches slides throughout: tau = (1 + e_P) |v0|/(Wnn - mu Wtn), so that v1 = -e_P v0 and
+// u1 = u0 + (Wtn - mu Wtt) tau.
+TEST(DerivativesTest, ContactThatJustApproachesDiffersOnItsSidesUnderFriction) {
+  const Scene scene = {.system = PlanarContact{3.25, 1.75, 1.75, 1.75, 0.0},
+                       .friction = {.kinetic_coefficient = 0.125},
+                       .restitution = PoissonCoefficient{0.75}};
+  const Derivative normal = Only(scene, "contact_velocity_after.normal_m_s", "planar_contact.normal_m_s");
+  EXPECT_EQ(normal.kind, DerivativeKind::kOneSided);
+  EXPECT_EQ(normal.threshold, Threshold::kApproach);
+  EXPECT_NEAR(normal.from_below.value_or(0.0), -0.75, 1e-14);
+  EXPECT_EQ(normal.from_above, 1.0);
+  const Derivative slip = Only(scene, "contact_velocity_after.tangential_m_s[0]", "planar_contact.normal_m_s");
+  EXPECT_NEAR(slip.from_below.value_or(0.0), -(1.75 - 0.125 * 3.25) * 1.75 / (1.75 - 0.125 * 1.75), 1e-14);
+  EXPECT_EQ(slip.from_above, 0.0);
+}
+
+// At mu > Wnn/|Wtn| and slip towards the jam, v1 tends to a number above 0 as v0 tends to 0, and -v1/v0 has no limit.
+TEST(DerivativesTest, CoefficientThatGrowsWithoutBoundHasNone) {
+  const Scene scene = {.system = PlanarContact{4.0, -2.0, 1.75, -1.875, 0.0},
+                       .friction = {.kinetic_coefficient = 1.375},
+                       .restitution = EnergeticCoefficient{0.25}};
+  const Derivative newton = Only(scene, "coefficients.newton", "planar_contact.normal_m_s");
+  EXPECT_FALSE(newton.from_below.has_value());
+  EXPECT_THAT(newton.reason, testing::HasSubstr("the number jumps"));
+}
+
 // mu Wtt = |Wtn| keeps u where it is, and beside it slip would stop only after an impulse without end: nothing jumps.
 // u1 = u0 + (Wtn - mu Wtt) tau with tau = (1 + e) |v0|/(Wnn - mu Wtn) = 1.
 TEST(DerivativesTest, SlipThatStopsAtInfinityIsNoThreshold) {
@@ -651,6 +677,35 @@ TEST(DerivativesTest, WOfRankOneHasNoDerivativeByItsEntries) {
   EXPECT_EQ(by_u.threshold, Threshold::kRank);
   EXPECT_EQ(Only(scene, "contact_velocity_after.normal_m_s", "friction.kinetic_coefficient").kind,
             DerivativeKind::kTwoSided);
+}
+
+// The rows of J are parallel, J = (2 a, a), so that W = s (4, 2; 2, 1) with s = a M^-1 a' has rank one for every M.
+// Slip and approach end together: tau = |v0|/s/(1 + 2 mu) + e |v0|/s/(1 - 2 mu).
+TEST(DerivativesTest, WThatKeepsRankOneHasDerivatives) {
+  const Scene arm = {
+      .system = Mechanism{.mass_matrix = {2.0, 0.1, 0.1, 1.0}, .jacobian = {0.6, 0.2, 0.3, 0.1}, .rates = {0.0, -1.0}},
+      .friction = {.kinetic_coefficient = 0.25},
+      .restitution = NewtonCoefficient{0.5}};
+  const Derivative by_mass = Only(arm, "impulse.normal_total_n_s", "mechanism.mass_matrix[0]");
+  const double s = (0.3 * 0.29 + 0.1 * 0.17) / 1.99, ds = -0.29 / 1.99 * 0.29 / 1.99;
+  EXPECT_EQ(by_mass.kind, DerivativeKind::kTwoSided) << by_mass.reason;
+  EXPECT_NEAR(by_mass.value.value_or(0.0), -0.1 / s * (1.0 / 1.5 + 0.5 / 0.5) / s * ds, 1e-12);
+  // One row alone, and W = diag(0, w): tau = (1 + e) |v0|/w.
+  const Scene contact = {.system = PlanarContact{0.0, 0.0, 2.0, 0.5, -1.0}, .restitution = NewtonCoefficient{0.5}};
+  const Derivative by_w = Only(contact, "impulse.normal_total_n_s", "planar_contact.w_nn_per_kg");
+  EXPECT_EQ(by_w.kind, DerivativeKind::kTwoSided) << by_w.reason;
+  EXPECT_NEAR(by_w.value.value_or(0.0), -1.5 / 4.0, 1e-15);
+  EXPECT_EQ(Only(contact, "impulse.normal_total_n_s", "planar_contact.w_tt_per_kg").threshold, Threshold::kDomain);
+}
+
+TEST(DerivativesTest, NumberThatATableDoesNotTouchHasNoThresholdThere) {
+  Scene scene = {.system = PlanarContact{3.5, 0.0, 2.0, 1.375, -1.875},
+                 .friction = {.kinetic_coefficient = 1.0},
+                 .restitution = NewtonCoefficient{0.5}};
+  scene.friction.by_speed = SpeedTable{{0.9375, 1.875, 3.75}, {1.0, 0.75, 0.5}};
+  const Derivative d = Only(scene, "impulse.normal_total_n_s", "friction.by_speed.table.speed_m_s[1]");
+  EXPECT_EQ(d.kind, DerivativeKind::kTwoSided);
+  EXPECT_NEAR(d.value.value_or(1.0), 0.0, 1e-30);
 }
 
 TEST(DerivativesTest, SpeedOfATableIsAThreshold) {
