@@ -182,8 +182,8 @@ struct EstimatedPath {
   }
 };
 
-// Integrates until the estimated error is within `tolerance`, or rounding forbids any better. A path that uses
-// up its budget is followed once more, finely if it was coarse and coarsely if it was fine.
+// Integrates until the estimated error is within `tolerance`, or rounding forbids any better. A path without an end is
+// followed once more: finely if it was coarse, or coarsely if it was fine and used up its budget.
 EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator, double tolerance, StopCheck& stop) {
   constexpr double kFirst = 0.1;
   constexpr double kTighter = 0.1;
@@ -202,10 +202,11 @@ EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator,
     result.tolerance = next;
     if (!result.path.HasEnd()) {
       result.error = std::numeric_limits<double>::infinity();
-      if (result.path.how != PathEnd::kBudgetUsedUp || is_second || stop.WasStopped()) return result;
+      const bool used_up = result.path.how == PathEnd::kBudgetUsedUp;
+      if (is_second || stop.WasStopped() || (!used_up && next <= kMiddle)) return result;
       // A force far above that of the impact leaves it to a small rest of the energy whether the bodies part: that
       // needs a fine path. A path of many sticks and slips uses up its budget only if it is fine.
-      next = next > kMiddle ? kFinest : kMiddle;
+      next = used_up && next > kMiddle ? kFinest : kMiddle;
       is_second = true;
       continue;
     }

@@ -1017,5 +1017,31 @@ TEST(FiniteDurationTest, TheSameProblemHasTheSameBits) {
   EXPECT_EQ(first.events, second.events);
 }
 
+// A small tangential force moves a contact that sticks by little more than the steps of a coarse integration err.
+TEST(FiniteDurationTest, ACoarseToleranceFindsTheEndThatAFineOneFinds) {
+  for (const double force : {1e-8, 1e-6, 1e-3, 0.1}) {
+    for (const double coefficient : {1e-3, 0.01, 0.1, 0.5}) {
+      Problem problem = {.contact = {.w = {1.1, 0.13, 0.228},
+                                     .u0 = -0.155,
+                                     .v0 = -1.445,
+                                     .mu = 0.12,
+                                     .mu_static = 0.12,
+                                     .coefficient = coefficient},
+                         .tangential_acceleration = force,
+                         .normal_acceleration = -9.81,
+                         .spring = HertzSpring{8e6},
+                         .tolerance = 1e-12};
+      const Impact fine = Solve(problem);
+      ASSERT_TRUE(fine.Converged()) << force << " " << coefficient;
+      for (const double tolerance : {0.1, 1e-3, 1e-5, 1e-6, 1e-7, 1e-9}) {
+        problem.tolerance = tolerance;
+        const Impact coarse = Solve(problem);
+        EXPECT_TRUE(HasEnd(coarse.regime)) << force << " " << coefficient << " " << tolerance;
+        EXPECT_LE(DistanceOf(problem, coarse, fine.u1, fine.v1), tolerance) << force << " " << coefficient;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ricochet::finite_duration
