@@ -418,7 +418,12 @@ std::string InWords(const CLI::App& app, const CLI::ParseError& error) {
     return absl::StrCat(word, " is not an option", DidYouMean(word, WithPrefix("--", names)));
   }
   absl::string_view what = error.what();
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) {
+    return absl::StrCat(what.substr(0, what.find(": ")), ": must be given once, with one value");
+  }
   if (absl::ConsumePrefix(&what, "INI was not able to parse ")) {
+    if (absl::ConsumeSuffix(&what, ".++"))
+      return absl::StrCat("--config: [", what, "]: the file must have no sections");
     return absl::StrCat("--config: ", what, " is not an option", DidYouMean(what, names));
   }
   return error.what();
@@ -548,7 +553,7 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
 }
 
 ServerLimits ServerLimitsOf(const Options& options) {
-  return {.max_message_bytes = kMostBytes,
+  return {.max_message_bytes = std::min(kMostBytes, options.limits.max_request_bytes),
           .max_metadata_bytes = kMaxMetadataBytes,
           .max_calls_per_connection = kMaxCallsPerConnection,
           .max_connections = options.connections.in_all,

@@ -28,7 +28,8 @@ constexpr char kExample[] =
 the impact (default: those of the scene), tangential_after_m_s, normal_after_m_s, friction (default: that of the scene)
 and velocity_uncertainty_m_s; in space also tangential_2_m_s and tangential_2_after_m_s. All velocities of the system
 after, as `ricochet scene columns` lists them, may replace that of the contact: rates_after_rad_s[0], or
-bodies_after[0].linear_m_s[0], bodies_after[0].linear_m_s[1] and bodies_after[0].angular_rad_s[0]. Text prints a
+bodies_after[0].linear_m_s[0], bodies_after[0].linear_m_s[1] and bodies_after[0].angular_rad_s[0]. Fields of the scene
+that differ by row, such as velocity_n_m_s of a body before, replace the columns before and friction. Text prints a
 summary; csv and jsonl print a line for each impact, and the summary on standard error; json prints both. A row with a
 cell that is no number, or that breaks a rule, is INVALID and has its reason; the others are still audited. Cells are
 separated by commas and may stand in double quotes; numbers have a decimal point.

@@ -18,7 +18,6 @@
 #include "client/cli/text/json_text.h"
 #include "core/audit/audit_scene.h"
 #include "core/base/counted.h"
-#include "core/scene/system_velocities.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
 
@@ -115,7 +114,8 @@ class Auditor {
       : solver_(solver), scene_(scene), data_(data), writer_(writer), output_(output) {}
 
   absl::Status Audit(const AuditRows& rows) {
-    absl::StatusOr<AuditBatchResponse> response = solver_.AuditBatch({.scene = scene_, .columns = rows.columns});
+    absl::StatusOr<AuditBatchResponse> response =
+        solver_.AuditBatch({.scene = scene_, .columns = rows.columns, .inputs = rows.inputs});
     if (!response.ok()) return response.status();
     if (response->reports.size() != rows.lines.size()) {
       return absl::DataLossError(
@@ -125,7 +125,7 @@ class Auditor {
     for (size_t i = 0; i < rows.lines.size(); ++i) {
       const AuditReport& report = response->reports[i];
       const bool is_invalid = report.regime == Regime::kInvalid;
-      const Row row{ending_.summary.rows, rows.lines[i], report, is_invalid ? WhyInvalid(rows, i) : ""};
+      const Row row{ending_.summary.rows, rows.lines[i], report, is_invalid ? WhyInvalid(scene_, rows, i) : ""};
       if (is_invalid && named_++ < kNamedRows) ending_.first_invalid += Complaint(row);
       if (!data_.picture.file.empty()) plot_.Add(report);
       audit::Add(row.index, report, ending_.summary);
@@ -211,8 +211,8 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
     if (!unknown) size = static_cast<int64_t>(bytes);
   }
   std::istream& stream = is_standard ? std::cin : static_cast<std::istream&>(file);
-  absl::StatusOr<AuditTable> table = AuditTable::Open(stream, is_standard ? "standard input" : data.file,
-                                                      SystemVelocityPaths(scene.system), data.skipped_columns);
+  absl::StatusOr<AuditTable> table =
+      AuditTable::Open(stream, is_standard ? "standard input" : data.file, scene, data.skipped_columns);
   if (absl::Status read = CheckWholeRead(stream, data.file); !read.ok()) return read;
   if (!table.ok()) return table.status();
   if (data.uncertainty_m_s.has_value() && table->has_uncertainty()) {

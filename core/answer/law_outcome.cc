@@ -14,9 +14,6 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// The laws' headers promise a few rounding errors.
-constexpr double kError = 16.0 * kEpsilon;
-
 Regime RegimeOf(const PlanarReduction& reduction, const laws::ImpactLawResult& result) {
   if (reduction.v0 >= 0.0) return Regime::kSeparating;
   return result.solutions.empty() ? Regime::kNoSolution : Regime::kByLaw;
@@ -71,13 +68,6 @@ void AddAlternatives(const laws::ImpactLawResult& result, Outcome& outcome) {
                         "; the answer is the one whose friction does the least work.")});
 }
 
-// The largest term of the slip after beside u0. Chatterjee's and Ruina's law alone may leave little of it.
-double CoupledSlip(const ImpactLaw& law, const PlanarProblem& problem) {
-  const auto* const by_ratios = std::get_if<ChatterjeeRuinaLaw>(&law);
-  if (by_ratios == nullptr) return 0.0;
-  return std::abs((by_ratios->e - by_ratios->e_t) * problem.v0 * (problem.w.tn / problem.w.nn));
-}
-
 std::vector<Event> TimelineOf(const PlanarReduction& reduction, Regime regime, const laws::ImpactSolution& solution) {
   if (regime != Regime::kByLaw) return {};
   return {
@@ -97,11 +87,7 @@ absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, 
     solution = result.solutions.front();
     outcome.coefficients.newton = 0.0 - solution.v1 / reduction.v0;
     outcome.coefficients.tangential = solution.tau1 == 0.0 ? 0.0 : solution.f / solution.tau1;
-    const double before = std::max(std::abs(reduction.u0[0]), std::abs(reduction.v0));
-    const double after = std::max(std::abs(solution.v1), std::abs(solution.u1));
-    const double error = kError * std::max(1.0, CoupledSlip(law, problem) / before);
-    // The error is relative to the largest of all velocities, the stated one to the velocity before the impact.
-    outcome.accuracy.relative_error = error * std::max(1.0, after / before);
+    outcome.accuracy.relative_error = laws::RelativeErrorOf(law, problem, solution);
   }
   outcome.accuracy.kind = AccuracyKind::kEstimate;
   outcome.w_rank = problem.w.Rank();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -25,7 +26,7 @@ Note DurationLeftOut() {
   return {.kind = NoteKind::kDurationLeftOut,
           .path = "contact",
           .text =
-              "The duration and the forces were left out, because velocities and impulses do not depend on them; "
+              "The duration and the forces were left out, as velocities and impulses are within the tolerance; "
               "--require finite-duration, or EFFECT_FINITE_DURATION in `required`, asks for them."};
 }
 
@@ -43,6 +44,21 @@ std::string InRadians(double degrees) { return absl::StrFormat("%.3g", degrees *
 
 void AddUndetermined(const char* path, std::string text, Outcome& outcome) {
   outcome.notes.push_back({.kind = NoteKind::kUndetermined, .path = path, .text = std::move(text)});
+}
+
+// Adds the note for a verdict that the effects left out, which change velocities by up to `negligible` of the speed
+// before, may turn. Near its limit 1, the energetic coefficient changes by some four times as much. Where it is stated
+// it stays what it is.
+void AddVerdictNote(const Restitution& restitution, double negligible, Outcome& outcome) {
+  constexpr double kOfCoefficient = 8.0;
+  if (!outcome.admissible || std::holds_alternative<EnergeticCoefficient>(restitution)) return;
+  const std::optional<double>& energetic = outcome.coefficients.energetic;
+  if (!energetic.has_value() || !(*energetic * (1.0 + kOfCoefficient * negligible) > 1.0)) return;
+  if (outcome.errors.energetic.has_value() && *energetic + *outcome.errors.energetic <= 1.0) return;
+  AddUndetermined("admissible",
+                  "The outcome is admissible with the effects that were simulated. Those that were left out may bring "
+                  "the energetic coefficient above 1; a tolerance of 0 leaves none out.",
+                  outcome);
 }
 
 // `full_rank` is the rank that no joint takes anything from.
@@ -147,6 +163,8 @@ struct AddUndeterminedOf {
 void AddNotes(const Scene& scene, const PlannedScene& planned, Outcome& outcome) {
   const Decision duration = planned.choice.decisions[static_cast<size_t>(Effect::kFiniteDuration)];
   if (duration == Decision::kNegligible) outcome.notes.push_back(DurationLeftOut());
+  const double negligible = planned.choice.negligible;
+  if (negligible > 0.0) AddVerdictNote(scene.restitution, negligible, outcome);
   VisitNumbers(scene, [&outcome](const NumberPath& path, double value, NumberRule rule) {
     if (rule == NumberRule::kAngle && std::abs(value) > kFullTurn) outcome.notes.push_back(LargeAngle(path, value));
   });

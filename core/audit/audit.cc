@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "core/models/restitution_law.h"
 #include "core/numerics/elementary.h"
 #include "core/numerics/wide.h"
+#include "ricochet/error.h"
 
 namespace ricochet::audit {
 namespace {
@@ -435,9 +437,16 @@ PathPoint PendulumAt(pendulum::Problem problem, double omega) {
   return compressing ? PendulumCompression(problem, impact, omega) : EndOf(impact);
 }
 
+absl::Status PathTooLong() {
+  return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kNotEnded,
+                   "the path of the impact under friction, to which the observation is compared, takes more steps than "
+                   "the model has");
+}
+
 // NearestPoint searches the point of a spatial path nearest to v+, for tau in [0, end]: golden section around each step
 // that lies nearer than its neighbours. Steps are equal, and in proportion to tau towards the start, as the end may lie
-// far beyond the impact. Each solves an impact, and `stopped` is asked before each.
+// far beyond the impact. Each solves an impact, and `stopped` is asked before each. All together may take as many steps
+// as twenty impacts, of which most take under a hundred.
 class NearestPoint {
  public:
   NearestPoint(const spatial::Problem& problem, const Contact<3>& contact, absl::FunctionRef<bool()> stopped)
@@ -447,9 +456,9 @@ class NearestPoint {
     return Hypot(Hypot(contact_.after[0] - point.u[0], contact_.after[1] - point.u[1]), contact_.after[2] - point.v);
   }
 
-  // Returns tau of the nearest point; nothing once it was stopped. The path may come near v+ and leave it again between
-  // two steps, so that they include `likely`.
-  std::optional<double> Find(double end, double likely) const {
+  // Returns tau of the nearest point. The path may come near v+ and leave it again between two steps, so that they
+  // include `likely`. Errors: CANCELLED, and that of PathTooLong.
+  absl::StatusOr<double> Find(double end, double likely) {
     constexpr int kSteps = 64;
     constexpr double kRatio = 0.75;
     std::vector<double> steps = {0.0, std::min(likely, end)};
@@ -461,15 +470,15 @@ class NearestPoint {
     std::sort(steps.begin(), steps.end());
     std::vector<double> distances;
     for (const double tau : steps) {
-      if (stopped_()) return std::nullopt;
+      if (absl::Status status = CheckProgress(); !status.ok()) return status;
       distances.push_back(DistanceAt(tau));
     }
     double best = 0.0, least = distances.front();
     for (size_t i = 0; i < steps.size(); ++i) {
       const size_t before = i == 0 ? i : i - 1, after = std::min(i + 1, steps.size() - 1);
       if (distances[i] > distances[before] || distances[i] > distances[after]) continue;
-      const std::optional<double> tau = Refined(steps[before], steps[after]);
-      if (!tau.has_value()) return std::nullopt;
+      const absl::StatusOr<double> tau = Refined(steps[before], steps[after]);
+      if (!tau.ok()) return tau.status();
       if (distances[i] < least) best = steps[i], least = distances[i];
       const double distance = DistanceAt(*tau);
       if (distance < least) best = *tau, least = distance;
@@ -478,15 +487,25 @@ class NearestPoint {
   }
 
  private:
-  double DistanceAt(double tau) const { return DistanceTo(PathAt(problem_, tau)); }
+  absl::Status CheckProgress() const {
+    constexpr int64_t kMostSteps = 200'000;
+    if (stopped_()) return absl::CancelledError("the audit was stopped by its caller");
+    return steps_ > kMostSteps ? PathTooLong() : absl::OkStatus();
+  }
+
+  double DistanceAt(double tau) {
+    const PathPoint point = PathAt(problem_, tau);
+    steps_ += point.steps;
+    return DistanceTo(point);
+  }
 
   // Halves the interval every 1.44 steps, down to the rounding of its end.
-  std::optional<double> Refined(double low, double high) const {
+  absl::StatusOr<double> Refined(double low, double high) {
     constexpr double kGolden = 0.6180339887498949;
     double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
     double left_distance = DistanceAt(left), right_distance = DistanceAt(right);
     while (high - low > 0x1p-48 * high) {
-      if (stopped_()) return std::nullopt;
+      if (absl::Status status = CheckProgress(); !status.ok()) return status;
       if (left_distance <= right_distance) {
         high = right;
         right = left, right_distance = left_distance;
@@ -504,6 +523,7 @@ class NearestPoint {
   const spatial::Problem& problem_;
   const Contact<3>& contact_;
   absl::FunctionRef<bool()> stopped_;
+  int64_t steps_ = 0;
 };
 
 // Moves a point of the path back by `change` (m/s), to first order in the way that the velocity goes with tau.
@@ -517,7 +537,7 @@ PathPoint MovedBack(const spatial::Problem& problem, const PathPoint& point, dou
 
 absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& problem, const Contact<3>& contact,
                                                   const PathPoint& start, absl::FunctionRef<bool()> stopped) {
-  const NearestPoint search(problem, contact, stopped);
+  NearestPoint search(problem, contact, stopped);
   double error = contact.uncertainty;
   for (size_t i = 0; i < 3; ++i) error += kRounding * (std::abs(contact.after[i]) + std::abs(contact.before[i]));
   PathPoint point = start;
@@ -526,8 +546,8 @@ absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& proble
     // The path comes no nearer once its normal velocity is above v+_n by the distance from its start.
     const double farthest = std::max(contact.after[2], 0.0) + search.DistanceTo(start);
     const double likely = PathWhereNormalIs(problem, std::max(contact.after[2], 0.0)).tau;
-    const std::optional<double> tau = search.Find(PathWhereNormalIs(problem, farthest).tau, likely);
-    if (!tau.has_value()) return absl::CancelledError("the audit was stopped by its caller");
+    const absl::StatusOr<double> tau = search.Find(PathWhereNormalIs(problem, farthest).tau, likely);
+    if (!tau.ok()) return tau.status();
     point = PathAt(problem, *tau);
     moved_back = MovedBack(problem, point, std::sqrt(3.0) * error);
   }
@@ -551,9 +571,12 @@ absl::StatusOr<AuditReport> Audit(const spatial::Problem& in, const Observation&
                                   absl::FunctionRef<bool()> stopped) {
   const Contact<3> contact = MakeContact(in, observation);
   PathPoint start = PathAt(in, 0.0);
+  if (start.regime == Regime::kUnspecified) return PathTooLong();
   start.w_rank = in.Delassus().Rank();
-  if (start.w_rank == 3) return AuditFullRank(in, contact, start);
-  return AuditSpatialDeficient(in, contact, start, stopped);
+  absl::StatusOr<AuditReport> report =
+      start.w_rank == 3 ? AuditFullRank(in, contact, start) : AuditSpatialDeficient(in, contact, start, stopped);
+  if (report.ok() && report->regime == Regime::kUnspecified) return PathTooLong();
+  return report;
 }
 
 AuditReport Audit(const pendulum::Problem& problem, const Observation& observation) {

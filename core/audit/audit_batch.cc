@@ -31,7 +31,8 @@ struct ColumnRule {
   const char* refused_for = nullptr;  // Null if it may have the column.
 };
 
-ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool is_planar) {
+ColumnRule RuleOf(const NamedAuditColumn& column, const AuditBatchRequest& request, bool is_planar) {
+  const AuditColumns& in = request.columns;
   ColumnRule rule = {absl::StrCat("columns.", column.name), in.*column.values};
   const bool has_rates = !in.rates_after.empty();
   if (column.is_spatial && is_planar) {
@@ -41,14 +42,23 @@ ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool i
     if (has_rates) rule.refused_for = "beside rates_after";
   } else if (column.part == AuditColumnPart::kBefore && has_rates) {
     // The velocities of the system after the impact follow from those before it, not from the contact's alone.
-    rule.refused_for = "beside rates_after, the velocities before are those of the scene";
+    rule.refused_for = "beside rates_after, the velocities before are those of the scene and its inputs";
+  } else if (!request.inputs.empty() && column.part == AuditColumnPart::kBefore) {
+    rule.refused_for = "beside inputs, which state the velocities before by their fields of the scene";
+  } else if (!request.inputs.empty() && column.values == &AuditColumns::friction) {
+    rule.refused_for = "beside inputs, which state friction as friction.kinetic_coefficient";
   }
   return rule;
 }
 
-std::vector<ColumnRule> Rules(const AuditColumns& in, size_t directions) {
+std::vector<ColumnRule> Rules(const AuditBatchRequest& request, size_t directions) {
+  const AuditColumns& in = request.columns;
   std::vector<ColumnRule> rules;
-  for (const NamedAuditColumn& column : kAuditColumns) rules.push_back(RuleOf(column, in, directions == 1));
+  for (const NamedAuditColumn& column : kAuditColumns) rules.push_back(RuleOf(column, request, directions == 1));
+  for (size_t i = 0; i < request.inputs.size(); ++i) {
+    rules.push_back(
+        {.name = absl::StrCat("inputs[", i, "].values"), .values = request.inputs[i].values, .is_required = true});
+  }
   for (size_t i = 0; i < in.rates_after.size(); ++i) {
     rules.push_back({.name = absl::StrCat("columns.rates_after[", i, "].values"),
                      .values = in.rates_after[i],
@@ -145,44 +155,61 @@ void Count(int64_t row, Tally& tally) {
 
 absl::StatusOr<AuditRows> AuditRows::Make(const AuditBatchRequest& request) {
   std::optional<SceneContact> contact;
-  std::vector<Violation> violations = audit::CheckScene(request.scene, contact);
+  std::vector<Violation> violations = request.inputs.empty() ? audit::CheckScene(request.scene, contact)
+                                                             : audit::CheckInputs(request.scene, request.inputs);
   if (std::holds_alternative<std::monostate>(request.scene.system)) return InvalidRequest(violations);
-  const std::vector<ColumnRule> rules = Rules(request.columns, TangentialDirections(request.scene.system));
+  const std::vector<ColumnRule> rules = Rules(request, TangentialDirections(request.scene.system));
   const size_t rows = RowsOf(rules);
   CheckRateColumns(request.columns, request.scene.system, violations);
   if (rows > 0) {
     for (Violation& violation : CheckColumns(rules, rows)) violations.push_back(std::move(violation));
   }
   if (!violations.empty()) return InvalidRequest(violations);
+  AuditRows made(request, rows);
+  if (!request.inputs.empty()) return made;
   if (!FitsDoubles(contact->reduction)) return ContactOverflow();
-  return AuditRows(request.columns, rows, audit::WithoutRestitution(request.scene), *contact);
+  made.shared_.emplace(request.scene, *contact, /*from_own_velocity=*/!HasVelocityBefore(request.columns));
+  return made;
 }
 
-AuditRows::AuditRows(const AuditColumns& columns, size_t size, Scene scene, const SceneContact& contact)
-    : columns_(columns),
-      size_(size),
-      scene_(std::move(scene)),
-      reduction_(contact.reduction),
-      scene_problem_(audit::MakeProblem(scene_, contact, /*from_own_velocity=*/!HasVelocityBefore(columns))) {}
+AuditRows::Impact::Impact(Scene its_scene, const SceneContact& contact, bool from_own_velocity)
+    : scene(audit::WithoutRestitution(std::move(its_scene))),
+      reduction(contact.reduction),
+      problem(audit::MakeProblem(scene, contact, from_own_velocity)) {}
+
+std::optional<AuditRows::Impact> AuditRows::ImpactAt(size_t row) const {
+  Scene scene = request_.scene;
+  std::optional<SceneContact> contact;
+  if (!audit::CheckRow(request_.inputs, row, scene, contact).empty()) return std::nullopt;
+  if (!FitsDoubles(contact->reduction)) return std::nullopt;
+  return Impact(std::move(scene), *contact, /*from_own_velocity=*/true);
+}
 
 absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, absl::FunctionRef<bool()> stopped) const {
-  const audit::AnyProblem problem = ProblemAt(row);
-  const audit::Observation seen = ObservationAt(row);
+  std::optional<Impact> own;
+  if (!shared_.has_value()) {
+    own = ImpactAt(row);
+    if (!own.has_value()) return AuditReport{.regime = Regime::kInvalid};
+  }
+  const Impact& impact = own.has_value() ? *own : *shared_;
+  const audit::AnyProblem problem = ProblemAt(row, impact);
+  const audit::Observation seen = ObservationAt(row, impact.scene);
   if (!IsValid(problem, seen)) return AuditReport{.regime = Regime::kInvalid};
   absl::StatusOr<AuditReport> report = audit::Audit(problem, seen, stopped);
+  if (absl::IsOutOfRange(report.status())) return AuditReport{.regime = Regime::kInvalid};
   if (report.ok() && !columns_.rates_after.empty()) {
-    audit::CheckRates(reduction_, RatesAt(row), seen.uncertainty, *report);
+    audit::CheckRates(impact.reduction, RatesAt(row), seen.uncertainty, *report);
   }
   if (report.ok() && audit::OverflowIn(*report) != nullptr) return AuditReport{.regime = Regime::kInvalid};
   return report;
 }
 
-audit::AnyProblem AuditRows::ProblemAt(size_t row) const {
-  audit::AnyProblem any = scene_problem_;
+audit::AnyProblem AuditRows::ProblemAt(size_t row, const Impact& impact) const {
+  audit::AnyProblem any = impact.problem;
   std::visit(
       [&](auto& problem) {
         SetVelocity(row, problem);
-        SetFriction(row, problem.mu, problem.mu_static);
+        SetFriction(row, impact.scene, problem.mu, problem.mu_static);
       },
       any);
   return any;
@@ -202,12 +229,12 @@ void AuditRows::SetVelocity(size_t row, spatial::Problem& problem) const {
   Set(columns_.normal_m_s, row, problem.v0);
 }
 
-void AuditRows::SetFriction(size_t row, double& mu, double& mu_static) const {
+void AuditRows::SetFriction(size_t row, const Scene& scene, double& mu, double& mu_static) const {
   if (!columns_.friction.empty()) {
     mu = mu_static = ValueAt(columns_.friction, row);
-  } else if (scene_.friction.by_speed.has_value() && !columns_.normal_m_s.empty()) {
+  } else if (scene.friction.by_speed.has_value() && !columns_.normal_m_s.empty()) {
     const EffectiveCoefficients effective =
-        CoefficientsAtSpeed(scene_, std::max(0.0, -ValueAt(columns_.normal_m_s, row)));
+        CoefficientsAtSpeed(scene, std::max(0.0, -ValueAt(columns_.normal_m_s, row)));
     mu = effective.kinetic_friction;
     mu_static = effective.static_friction;
   }
@@ -219,10 +246,10 @@ std::vector<double> AuditRows::RatesAt(size_t row) const {
   return rates;
 }
 
-audit::Observation AuditRows::ObservationAt(size_t row) const {
+audit::Observation AuditRows::ObservationAt(size_t row, const Scene& scene) const {
   audit::Observation seen;
   if (!columns_.rates_after.empty()) {
-    const ContactVelocity velocity = ContactVelocityAt(scene_, RatesAt(row));
+    const ContactVelocity velocity = ContactVelocityAt(scene, RatesAt(row));
     std::copy(velocity.tangential_m_s.begin(), velocity.tangential_m_s.end(), seen.u1.begin());
     seen.v1 = velocity.normal_m_s;
   } else {

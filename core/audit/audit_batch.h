@@ -5,6 +5,7 @@
 #define RICOCHET_CORE_AUDIT_AUDIT_BATCH_H_
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "absl/functional/function_ref.h"
@@ -20,33 +21,44 @@ namespace ricochet {
 // Thread safety: several threads may audit rows at once.
 class AuditRows {
  public:
-  // The columns of the request must outlive this object.
-  // Errors: INVALID_ARGUMENT with every violation of the scene and the columns; the error of a contact that exceeds the
-  // range of doubles.
+  // The request must outlive this object.
+  // Errors: INVALID_ARGUMENT with every violation of scene, inputs and columns; without inputs the error of a contact
+  // that exceeds the range of doubles.
   static absl::StatusOr<AuditRows> Make(const AuditBatchRequest& request);
 
   size_t size() const { return size_; }
 
-  // A row that breaks a rule or whose report overflows is reported as kInvalid.
+  // A row that breaks a rule, whose report overflows or whose path takes too many steps is reported as kInvalid.
   // Errors: CANCELLED once `stopped` returns true.
   absl::StatusOr<AuditReport> Audit(size_t row, absl::FunctionRef<bool()> stopped) const;
 
  private:
-  AuditRows(const AuditColumns& columns, size_t size, Scene scene, const SceneContact& contact);
+  // The impact that a row, or all rows, begin from.
+  struct Impact {
+    Impact(Scene its_scene, const SceneContact& contact, bool from_own_velocity);
 
-  audit::AnyProblem ProblemAt(size_t row) const;
+    Scene scene;
+    AnyReduction reduction;
+    audit::AnyProblem problem;
+  };
+
+  AuditRows(const AuditBatchRequest& request, size_t size)
+      : request_(request), columns_(request.columns), size_(size) {}
+
+  // Nothing if the scene of the row breaks a rule or exceeds the range of doubles.
+  std::optional<Impact> ImpactAt(size_t row) const;
+  audit::AnyProblem ProblemAt(size_t row, const Impact& impact) const;
   void SetVelocity(size_t row, pendulum::Problem& problem) const;
   void SetVelocity(size_t row, planar::Problem& problem) const;
   void SetVelocity(size_t row, spatial::Problem& problem) const;
-  void SetFriction(size_t row, double& mu, double& mu_static) const;
+  void SetFriction(size_t row, const Scene& scene, double& mu, double& mu_static) const;
   std::vector<double> RatesAt(size_t row) const;
-  audit::Observation ObservationAt(size_t row) const;
+  audit::Observation ObservationAt(size_t row, const Scene& scene) const;
 
+  const AuditBatchRequest& request_;
   const AuditColumns& columns_;
   size_t size_;
-  Scene scene_;
-  AnyReduction reduction_;
-  audit::AnyProblem scene_problem_;  // From the scene's own velocity.
+  std::optional<Impact> shared_;  // Unset beside inputs, by which each row has its own.
 };
 
 // Counts reports, row after row.

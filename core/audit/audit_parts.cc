@@ -4,30 +4,36 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
+#include "core/base/invariant.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/plan/scene_problem.h"
+#include "core/scene/driven_fields.h"
+#include "core/scene/field.h"
 #include "core/scene/rigid.h"
 #include "core/scene/validate.h"
 
 namespace ricochet::audit {
 
-std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact) {
-  std::vector<Violation> violations = Validate(scene, RestitutionIs::kOptional, contact);
-  if (violations.empty()) RequireRigid(scene, RigidIn::kNormal, "for an audit", violations);
-  if (!violations.empty()) return violations;
-  if (!contact.has_value()) contact.emplace(scene);
-  if (std::visit([](const auto& reduction) { return reduction.w.back() == 0.0; }, contact->reduction)) {
+namespace {
+
+// Lists why no audit can take a contact whose scene keeps its rules.
+std::vector<Violation> CheckContact(const Scene& scene, const SceneContact& contact) {
+  std::vector<Violation> violations;
+  if (std::visit([](const auto& reduction) { return reduction.w.back() == 0.0; }, contact.reduction)) {
     violations.push_back(MakeViolation("system", "makes Wnn = 0",
                                        "be > 0 for an audit, no normal impulse moves the contact",
                                        ViolationKind::kContact));
     return violations;
   }
   const bool is_covered = std::visit(
-      [](const auto& reduction) { return reduction.v0 >= 0.0 || VelocityIsInRange(reduction); }, contact->reduction);
+      [](const auto& reduction) { return reduction.v0 >= 0.0 || VelocityIsInRange(reduction); }, contact.reduction);
   if (!is_covered) {
     violations.push_back(MakeViolation(scene.surface_velocity.has_value() ? "surface_velocity" : "system",
                                        "makes a contact velocity beside the range of W, whose rank is not full",
@@ -36,6 +42,43 @@ std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact
                                        ViolationKind::kContact));
   }
   return violations;
+}
+
+}  // namespace
+
+std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact) {
+  std::vector<Violation> violations = Validate(scene, RestitutionIs::kOptional, contact);
+  if (violations.empty()) RequireRigid(scene, RigidIn::kNormal, "for an audit", violations);
+  if (!violations.empty()) return violations;
+  if (!contact.has_value()) contact.emplace(scene);
+  return CheckContact(scene, *contact);
+}
+
+std::vector<Violation> CheckInputs(const Scene& scene, const std::vector<InputColumn>& inputs) {
+  if (std::holds_alternative<std::monostate>(scene.system)) return Validate(scene, RestitutionIs::kOptional);
+  std::vector<std::string> paths;
+  for (const InputColumn& input : inputs) paths.push_back(input.path);
+  Scene driven = scene;
+  const DrivenFields fields(
+      paths, [](size_t i) { return absl::StrCat("inputs[", i, "]"); }, ".path", driven);
+  if (!fields.violations().empty()) return fields.violations();
+  std::optional<SceneContact> unused;
+  std::vector<Violation> violations =
+      Validate(driven, RestitutionIs::kOptional, unused,
+               [&](const Violation& violation) { return !fields.CanBeCured(violation); });
+  if (violations.empty()) RequireRigid(driven, RigidIn::kNormal, "for an audit", violations);
+  return violations;
+}
+
+std::vector<Violation> CheckRow(const std::vector<InputColumn>& inputs, size_t row, Scene& scene,
+                                std::optional<SceneContact>& contact) {
+  for (const auto& [path, values] : inputs) {
+    const double value = values.size() == 1 ? values[0] : values[row];
+    const absl::StatusOr<Field> field = ResolveField(path, scene);
+    CheckInvariant(field.ok(), "the inputs of an audit were checked");
+    if (!field->Set(value) && path == kPhi) return {*WhyNoPhi(value)};
+  }
+  return CheckScene(scene, contact);
 }
 
 Scene WithoutRestitution(Scene scene) {

@@ -28,10 +28,18 @@ double VelocityError(const spatial::Problem& problem, const spatial::Impact& imp
   return std::max(problem.tolerance, impact.error_estimate) * Scale(problem);
 }
 
+int64_t Steps(const planar::Impact& /*impact*/) { return 0; }
+int64_t Steps(const spatial::Impact& impact) { return impact.steps; }
+
+template <typename Impact>
+Regime RegimeOf(const Impact& impact) {
+  return impact.termination == Termination::kBudgetUsedUp ? Regime::kUnspecified : impact.regime;
+}
+
 // The end of an impact is a point of the path.
 template <typename Problem, typename Impact>
 PathPoint EndOf(const Problem& problem, const Impact& impact) {
-  return {.regime = impact.regime,
+  return {.regime = RegimeOf(impact),
           .w_rank = impact.w_rank,
           .tau_compression = impact.tau_compression,
           .tau = impact.tau1,
@@ -47,7 +55,8 @@ PathPoint EndOf(const Problem& problem, const Impact& impact) {
           .work_tangential_compression = impact.work_tangential_compression,
           .work_tangential_restitution = impact.work_tangential_restitution,
           .energy_change = impact.energy_change,
-          .velocity_error = VelocityError(problem, impact)};
+          .velocity_error = VelocityError(problem, impact),
+          .steps = Steps(impact)};
 }
 
 using planar::Solve;
@@ -64,11 +73,13 @@ auto SolveBy(Problem problem, RestitutionLaw law, double coefficient) {
 template <typename Problem, typename Impact>
 PathPoint DuringCompression(const Problem& problem, const Impact& impact, double tau) {
   PathPoint point{
-      .regime = impact.regime, .w_rank = impact.w_rank, .tau_compression = impact.tau_compression, .tau = tau};
+      .regime = RegimeOf(impact), .w_rank = impact.w_rank, .tau_compression = impact.tau_compression, .tau = tau};
+  point.steps = Steps(impact);
   const bool stopped =
       std::any_of(impact.events.begin(), impact.events.begin() + impact.event_count,
                   [&](const auto& event) { return event.kind == EventKind::kSlipStops && event.tau <= tau; });
-  if (!stopped && Slips(problem) && impact.regime != Regime::kFrictionless) point.regime = Regime::kSliding;
+  const bool slides = !stopped && Slips(problem) && impact.regime != Regime::kFrictionless;
+  if (slides && point.regime != Regime::kUnspecified) point.regime = Regime::kSliding;
   point.poisson = (tau - impact.tau_compression) / impact.tau_compression;
   point.energetic_excess = -1.0;
   point.velocity_error = VelocityError(problem, impact);
@@ -107,8 +118,11 @@ PathPoint BeforeCompressionEnds(const spatial::Problem& problem, const spatial::
     spatial::Problem other = problem;
     other.w33 = 2.0 * (problem.w33 + problem.mu * Hypot(problem.w13, problem.w23));
     other.v0 = -0.5 * problem.w33 * tau;
-    const double tau_compression = SolveBy(other, RestitutionLaw::kPoisson, 0.0).tau_compression;
-    const spatial::Impact end = SolveBy(other, RestitutionLaw::kPoisson, (tau - tau_compression) / tau_compression);
+    const spatial::Impact half = SolveBy(other, RestitutionLaw::kPoisson, 0.0);
+    const double restitution = (tau - half.tau_compression) / half.tau_compression;
+    const spatial::Impact end = SolveBy(other, RestitutionLaw::kPoisson, restitution);
+    if (RegimeOf(end) == Regime::kUnspecified) point.regime = Regime::kUnspecified;
+    point.steps += half.steps + end.steps;
     point.velocity_error = std::max(point.velocity_error, VelocityError(other, end));
     const double v_shift = problem.v0 - other.v0;
     const double slope_shift = other.w33 - problem.w33;
@@ -132,7 +146,10 @@ PathPoint PointAt(const Problem& problem, double tau) {
   const double restitution = tau - compression.tau_compression;
   if (restitution < 0.0) return BeforeCompressionEnds(problem, compression, tau);
   if (compression.regime == Regime::kLocked) return EndOf(problem, compression);
-  return EndOf(problem, SolveBy(problem, RestitutionLaw::kPoisson, restitution / compression.tau_compression));
+  PathPoint point =
+      EndOf(problem, SolveBy(problem, RestitutionLaw::kPoisson, restitution / compression.tau_compression));
+  point.steps += Steps(compression);
+  return point;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #define RICOCHET_CORE_AUDIT_COULOMB_PATH_H_
 
 #include <array>
+#include <cstdint>
 
 #include "core/models/planar/planar.h"
 #include "core/models/spatial/spatial.h"
@@ -19,7 +20,8 @@ namespace ricochet::audit {
 
 // A plane uses the first tangential direction only; the other is 0. Impulses in N s, velocities in m/s, works in J.
 struct PathPoint {
-  Regime regime = Regime::kUnspecified;  // The regime of the path up to this point.
+  // The regime of the path up to this point; kUnspecified if the model's steps did not lead to it.
+  Regime regime = Regime::kUnspecified;
   int w_rank = 0;
   double tau_compression = 0.0;  // The end of compression, even if tau is less.
   double tau = 0.0;              // Less than asked for where the contact locks before: the path ends there.
@@ -34,6 +36,7 @@ struct PathPoint {
   double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
   double energy_change = 0.0;   // Since the start.
   double velocity_error = 0.0;  // Bound on the error of u and v.
+  int64_t steps = 0;            // The steps of all impacts that were solved for it.
 };
 
 // Gives the point at tau >= 0. A contact that does not approach has one point. The law and the coefficient of the

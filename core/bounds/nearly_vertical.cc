@@ -1,5 +1,6 @@
 #include "core/bounds/nearly_vertical.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -59,6 +60,9 @@ NearlyVertical SolveNearlyVertical(const Problem& problem, bool with_coefficient
                                .poisson = Enclosing(form.poisson.error, form.poisson.value),
                                .energetic = Enclosing(form.energetic.error, form.energetic.value),
                                .tangential = Enclosing(Wide::Exactly(mu_size) * form.tangential.error, mu_hat)};
+  // The exact |mu_hat| is at most mu.
+  const double apart = 1.0000000000000004 * (std::fabs(result.coefficients->tangential) + mu_size);
+  result.coefficient_errors.tangential = std::min(result.coefficient_errors.tangential, apart);
   return result;
 }
 

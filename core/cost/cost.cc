@@ -115,6 +115,7 @@ class CostStudy::Impl {
 
   CostRow Study(const StudiedMethod& method, Stopped stopped) {
     CostRow row = {.name = method.name, .method = method.method, .note = method.note};
+    row.claimed = {.total = kNotKnown, .numerical = kNotKnown, .modelling = kNotKnown};  // Until there is an answer.
     if (!method.unavailable.empty()) {
       row.status = CostStatus::kUnavailable;
       AddNote(method.unavailable, row);

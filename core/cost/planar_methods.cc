@@ -14,9 +14,6 @@ namespace {
 
 using planar::Problem;
 
-// The headers of the laws promise a few rounding errors.
-constexpr double kLawError = 0x1p-48;
-
 Kernel PlainKernel(const Problem& problem) {
   const auto solve = [](const Problem& of, Stopped) { return planar::SolvePlain(of); };
   const auto read = [](const Problem&, const planar::PlainImpact& plain) {
@@ -86,13 +83,10 @@ ReferencePointer AddCompliant(const Problem& problem, const ContactPhysics& phys
 
 void AddImpactLaw(const ImpactLaw& law, const Problem& problem, Methods& methods) {
   const auto solve = [law](const Problem& of, Stopped) { return laws::SolveLaw(law, of); };
-  const auto read = [](const Problem& of, const laws::ImpactLawResult& result) {
+  const auto read = [law](const Problem& of, const laws::ImpactLawResult& result) {
     if (result.solutions.empty()) return KernelAnswer{.failure = "The law has no solution for this contact."};
     const laws::ImpactSolution& first = result.solutions.front();
-    const double before = std::max(std::fabs(of.u0), std::fabs(of.v0));
-    const double after = std::max(std::fabs(first.u1), std::fabs(first.v1));
-    return KernelAnswer{.velocity = {first.u1, 0.0, first.v1},
-                        .claimed = after == 0.0 ? 0.0 : kLawError * std::max(1.0, after / before)};
+    return KernelAnswer{.velocity = {first.u1, 0.0, first.v1}, .claimed = laws::RelativeErrorOf(law, of, first)};
   };
   methods.push_back({.name = "impact law",
                      .method = {.model = Model::kImpactLaw, .arithmetic = Arithmetic::kPlain},

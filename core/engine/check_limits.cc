@@ -136,6 +136,13 @@ void CheckColumns(const AuditColumns& columns, SizeCheck& check) {
   }
 }
 
+void CheckInputs(const std::vector<InputColumn>& inputs, SizeCheck& check) {
+  check.Entries("inputs", inputs.size(), &Limits::max_columns);
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    check.Entries(absl::StrCat("inputs[", i, "].values"), inputs[i].values.size(), &Limits::max_audit_rows);
+  }
+}
+
 void CheckAxes(const std::vector<Axis>& axes, SizeCheck& check) {
   check.Entries("axes", axes.size(), &Limits::max_axes);
   for (size_t i = 0; i < axes.size(); ++i) {
@@ -189,6 +196,7 @@ absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits)
   SizeCheck check(limits);
   check.Scene(request.scene);
   CheckColumns(request.columns, check);
+  CheckInputs(request.inputs, check);
   return check.status();
 }
 

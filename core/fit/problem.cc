@@ -86,7 +86,7 @@ class Door {
     if (request_.unknowns.empty() || request_.measured.empty()) return;
     BatchSetup setup = {.scene = request_.scene};
     for (const FitUnknown& unknown : request_.unknowns) setup.fields.push_back(unknown.path);
-    for (const FitInput& input : request_.inputs) setup.fields.push_back(input.path);
+    for (const InputColumn& input : request_.inputs) setup.fields.push_back(input.path);
     for (const FitMeasured& measured : request_.measured) setup.columns.push_back(measured.path);
     std::vector<std::pair<std::string, std::string>> names;
     for (size_t i = 0; i < setup.fields.size(); ++i) {

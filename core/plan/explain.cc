@@ -114,7 +114,7 @@ std::string ReasonOf(Effect effect, const Size& size, ContactKind kind) {
     case Basis::kNoSpring:
       return "the scene has no normal spring: forces have no time to act";
     case Basis::kSameImpulses:
-      return "velocities and impulses do not depend on it; require it to get the duration and the forces";
+      return "it gives the duration and the forces, and does not change velocities and impulses by itself";
     case Basis::kInequality:
       return ByInequality(effect, size, kind);
     case Basis::kSelfLocking:

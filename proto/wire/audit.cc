@@ -95,6 +95,11 @@ struct Map<ObservedRates> : Between<ObservedRates, v1::ObservedRates> {
 };
 
 template <>
+struct Map<InputColumn> : Between<InputColumn, v1::InputColumn> {
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(path), RICOCHET_FIELD(values));
+};
+
+template <>
 struct Map<AuditRequest> : Between<AuditRequest, v1::AuditRequest> {
   static constexpr auto kFields = Entries(
       RICOCHET_FIELD(scene), Flat(&T::observed, OneOf(RICOCHET_ACCESS(contact_velocity), RICOCHET_ACCESS(rates))),
@@ -109,13 +114,16 @@ struct Map<AuditResponse> : Between<AuditResponse, v1::AuditResponse> {
 
 template <>
 struct Map<AuditBatchRequest> : Between<AuditBatchRequest, v1::AuditBatchRequest> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(columns));
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(columns), RICOCHET_FIELD(inputs));
 };
 
 template <>
 struct Map<AuditBatchResponse> : Between<AuditBatchResponse, v1::AuditBatchResponse> {
   static constexpr auto kFields = Entries(RICOCHET_FIELD(reports), RICOCHET_FIELD(summary), RICOCHET_FIELD(engine));
 };
+
+void ToProto(const InputColumn& column, v1::InputColumn& proto) { Map<InputColumn>::kFields.Write(column, proto); }
+void FromProto(const v1::InputColumn& proto, InputColumn& column) { Map<InputColumn>::kFields.Read(proto, column); }
 
 v1::AuditReport ToProto(const AuditReport& report) { return Sent(report); }
 

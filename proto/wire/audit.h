@@ -20,6 +20,9 @@ AuditBatchRequest FromProto(const v1::AuditBatchRequest& proto);
 v1::AuditBatchResponse ToProto(const AuditBatchResponse& response);
 AuditBatchResponse FromProto(const v1::AuditBatchResponse& proto);
 
+void ToProto(const InputColumn& column, v1::InputColumn& proto);
+void FromProto(const v1::InputColumn& proto, InputColumn& column);
+
 v1::AuditReport ToProto(const AuditReport& report);
 
 template <>

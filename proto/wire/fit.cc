@@ -1,5 +1,6 @@
 #include "proto/wire/fit.h"
 
+#include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/map.h"
 #include "proto/wire/outcome.h"
@@ -11,11 +12,6 @@ template <>
 struct Map<FitUnknown> : Between<FitUnknown, v1::FitUnknown> {
   static constexpr auto kFields =
       Entries(RICOCHET_FIELD(path), RICOCHET_FIELD(start), RICOCHET_FIELD(low), RICOCHET_FIELD(high));
-};
-
-template <>
-struct Map<FitInput> : Between<FitInput, v1::FitInput> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(path), RICOCHET_FIELD(values));
 };
 
 template <>

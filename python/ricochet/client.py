@@ -296,11 +296,11 @@ class Client:
         """Audits many observed impacts at one contact.
 
         Args:
-            scene: the contact; its velocity is used for rows that state none.
+            scene: gives every number that no column states.
             columns: arrays with the names of ricochet.v1.AuditColumns, such as ``tangential_after_m_s`` and
-                ``normal_after_m_s``, m/s, all equally long or single numbers; ``rates_after`` is a list with an array
-                for each velocity of the system, in the order of ``audit``, whose velocities before are then those of
-                the scene. A pandas frame will do.
+                ``normal_after_m_s``, m/s, or of fields of the scene that differ by row, such as
+                ``planar_body.velocity_n_m_s``, all equally long or single numbers; ``rates_after`` is a list with an
+                array for each velocity of the system, in the order of ``audit``. A pandas frame will do.
 
         Returns:
             A table with every number of ricochet.v1.AuditReport; ``limits.sharp.verdict`` and its like are codes.
@@ -310,7 +310,10 @@ class Client:
             RicochetError: the call failed otherwise.
         """
         scene = Scene(scene)
-        given = names.by_full_name(columns, _core.field_names("AuditColumns"), "columns")
+        observed = _core.field_names("AuditColumns")
+        # The short name of an observed number is not that of a field, too.
+        fields = [path for path in scene._fields() if path.rpartition(".")[2] not in observed]
+        given = names.by_full_name(columns, [*observed, *fields], "columns")
         arrays = {name: _columns_of(name, column) for name, column in given.items()}
         rows = _row_count([column.shape[-1] for column in arrays.values()])
         index = _index_of("columns", columns, given, rows)
@@ -321,7 +324,9 @@ class Client:
                 name: _part(column, start, start + most) for name, column in arrays.items() if rows}
             if "rates_after" in part:
                 part["rates_after"] = [{"values": rate} for rate in np.atleast_2d(part["rates_after"])]
-            answer = self._solver.audit_batch(scene, {"columns": part})
+            inputs = [{"path": name, "values": part.pop(name)} for name in list(part) if name not in observed]
+            with errors.naming(inputs=[column["path"] for column in inputs]):
+                answer = self._solver.audit_batch(scene, {"columns": part, "inputs": inputs})
             if len(answer.reports) != min(most, rows - start):
                 raise RicochetError(f"the server answers {len(answer.reports)} rows of an audit", code="DATA_LOSS")
             answers.append(answer)

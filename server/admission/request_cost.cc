@@ -59,8 +59,10 @@ bool TakesTime(const SolveRequest& request) {
   return request.force_intervals > 0 || TakesTime(request.scene, request.demand);
 }
 
-size_t Rows(const AuditColumns& columns) {
+size_t Rows(const AuditBatchRequest& request) {
+  const AuditColumns& columns = request.columns;
   size_t rows = 0;
+  for (const InputColumn& input : request.inputs) rows = std::max(rows, input.values.size());
   for (const NamedAuditColumn& column : kAuditColumns) rows = std::max(rows, (columns.*column.values).size());
   for (const std::vector<double>& column : columns.rates_after) rows = std::max(rows, column.size());
   return rows;
@@ -100,7 +102,7 @@ RequestCost CostOf(const BoundsRequest& request) {
 RequestCost CostOf(const AuditRequest& request) { return CostOf(request.scene); }
 
 RequestCost CostOf(const AuditBatchRequest& request) {
-  const size_t rows = Rows(request.columns);
+  const size_t rows = Rows(request);
   if (rows > kFewRows) {
     return Expensive(CostCause::kRows, static_cast<double>(rows) * static_cast<double>(Links(request.scene)));
   }

@@ -99,7 +99,7 @@ double SlotQueue::ExpectedWait(const Waiter& waiter) const {
 
 absl::Status SlotQueue::WhyRefused(const Waiter& waiter) const {
   const double wait_s = ExpectedWait(waiter);
-  if (queue_.size() >= most_waiting_) return Overloaded(Seconds(wait_s));
+  if (queue_.size() >= most_waiting_) return QueueFull(most_waiting_, Seconds(wait_s));
   // Without a wait a call is always let in, so that one expectation that is too long does not keep out all later calls.
   if (wait_s == 0.0 || waiter.deadline == Time::max()) return absl::OkStatus();
   const double left_s = Seconds(waiter.deadline - Clock::now()).count();

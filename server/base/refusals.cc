@@ -45,11 +45,20 @@ absl::Status NoMemoryOfPeer(int64_t limit) {
 
 absl::Status NoThread() { return NoRoom("the server has no thread for another call; try again later"); }
 
+static milliseconds RetryAfter(std::chrono::duration<double> wait) {
+  return std::clamp(std::chrono::duration_cast<milliseconds>(wait), milliseconds(100), milliseconds(5000));
+}
+
 absl::Status Overloaded(std::chrono::duration<double> wait) {
-  const auto delay = std::chrono::duration_cast<milliseconds>(wait);
   return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kOverloaded,
                  "more work waits to be computed than would let this call end in time; try again later",
-                 std::clamp(delay, milliseconds(100), milliseconds(5000)));
+                 RetryAfter(wait));
+}
+
+absl::Status QueueFull(size_t most, std::chrono::duration<double> wait) {
+  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kOverloaded,
+                 absl::StrCat("as many calls wait to be computed as may, ", most, "; try again later"),
+                 RetryAfter(wait));
 }
 
 absl::Status TimeLimitReached(milliseconds limit) {

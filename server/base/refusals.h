@@ -28,6 +28,9 @@ absl::Status NoThread();
 // RESOURCE_EXHAUSTED: the work that waits to be computed would take `wait` before it is the turn of a new call.
 absl::Status Overloaded(std::chrono::duration<double> wait);
 
+// RESOURCE_EXHAUSTED: `most` calls, as many as may, wait to be computed. The work before them takes `wait`.
+absl::Status QueueFull(size_t most, std::chrono::duration<double> wait);
+
 // DEADLINE_EXCEEDED: a unary call has taken `limit`, the longest time that the server allows.
 absl::Status TimeLimitReached(std::chrono::milliseconds limit);
 

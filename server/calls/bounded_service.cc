@@ -72,7 +72,7 @@ grpc::ByteBuffer& OwnedBytes(const grpc::ByteBuffer* bytes) { return const_cast<
 int64_t MostElements(const Limits& limits) {
   // A link, a range, an axis or a column has at most four elements.
   const int64_t lists = limits.max_links + limits.max_ranges + limits.max_axes + limits.max_columns;
-  return std::max(kLeastElements, 4 * lists + 64);
+  return std::max(kLeastElements, 4 * lists + limits.max_contact_states + 64);
 }
 
 template <typename Request>

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/rows/axis_values.h"
+#include "core/scene/field.h"
 #include "ricochet/engine_info.h"
 #include "tests/contract/solvers.h"
 #include "tests/support/scenes/multi_contact_scenes.h"
@@ -617,6 +618,53 @@ TEST_P(SolverContract, AuditOfABatchTakesWhatItLeavesOutFromTheScene) {
   ASSERT_TRUE(stated.ok()) << stated.status();
   EXPECT_EQ(stated->reports, own->reports);
   EXPECT_EQ(solver().AuditBatch({.scene = request.scene, .columns = {}})->reports.size(), 0);
+}
+
+// Each system has the velocities of its own before each impact, and its own friction.
+TEST_P(SolverContract, AuditOfABatchWithInputsIsThatOfEachRowsScene) {
+  const std::pair<System, std::string> systems[] = {{Contact(), "planar_contact.normal_m_s"},
+                                                    {Chain(), "linkage.links[0].rate_rad_s"},
+                                                    {PaperScene().system, "pendulum.omega_minus_rad_s"}};
+  for (const auto& [system, path] : systems) {
+    const Scene scene = With(system);
+    const InputColumn velocity = {.path = path, .values = {-1.0, -0.5, std::nan("")}};
+    const InputColumn friction = {.path = "friction.kinetic_coefficient", .values = {0.25}};
+    const auto batch =
+        solver().AuditBatch({.scene = scene,
+                             .columns = {.tangential_after_m_s = {0.5}, .normal_after_m_s = {0.25, 0.125, 0.25}},
+                             .inputs = {velocity, friction}});
+    ASSERT_TRUE(batch.ok()) << path << batch.status();
+    EXPECT_EQ(batch->summary.invalid, (Tally{1, 2})) << path;
+    for (const size_t row : {0u, 1u}) {
+      Scene of_row = scene;
+      ResolveField(path, of_row)->Set(velocity.values[row]);
+      of_row.friction.kinetic_coefficient = 0.25;
+      const Observed observed = ContactVelocity{{0.5}, row == 0 ? 0.25 : 0.125};
+      const auto one = solver().Audit({.scene = of_row, .observed = observed});
+      ASSERT_TRUE(one.ok()) << path << one.status();
+      EXPECT_EQ(batch->reports[row], one->report) << path << ", row " << row;
+    }
+  }
+}
+
+TEST_P(SolverContract, AuditInputsThatAreWrongAreNamed) {
+  const auto violations = [this](const std::vector<InputColumn>& inputs, const AuditColumns& columns) {
+    return ViolationsOf(solver().AuditBatch({.scene = With(Contact()), .columns = columns, .inputs = inputs}).status());
+  };
+  const AuditColumns after = {.tangential_after_m_s = {0.5}, .normal_after_m_s = {0.5, 0.25}};
+  const InputColumn normal = {.path = "planar_contact.normal_m_s", .values = {-1.0}};
+  EXPECT_THAT(violations({{.path = "planar_contact.normal", .values = {-1.0}}}, after),
+              ElementsAre(Field(&Violation::field, "inputs[0].path")));
+  EXPECT_THAT(violations({normal, normal}, after), ElementsAre(Field(&Violation::field, "inputs[1].path")));
+  EXPECT_THAT(violations({{.path = normal.path, .values = {}}}, after),
+              ElementsAre(Field(&Violation::field, "inputs[0].values")));
+  EXPECT_THAT(violations({{.path = normal.path, .values = {-1, -1, -1}}}, after),
+              ElementsAre(Field(&Violation::field, "columns.normal_after_m_s")));
+  AuditColumns before = after;
+  before.normal_m_s = {-1.0};
+  before.friction = {0.5};
+  EXPECT_THAT(violations({normal}, before), ElementsAre(Field(&Violation::field, "columns.normal_m_s"),
+                                                        Field(&Violation::field, "columns.friction")));
 }
 
 TEST_P(SolverContract, AuditOfABatchByRatesIsThatOfEachRowsRates) {

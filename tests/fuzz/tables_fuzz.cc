@@ -23,6 +23,7 @@
 #include "client/cli/io/csv_row.h"
 #include "client/cli/io/csv_table.h"
 #include "core/base/decimal.h"
+#include "ricochet/scene.h"
 #include "tests/fuzz/fail.h"
 
 namespace ricochet::cli {
@@ -142,8 +143,8 @@ void CheckAuditTable(const std::string& text, size_t most, bool skips) {
   std::istringstream stream(text);
   std::vector<std::string> skipped;
   if (skips) skipped = {"comment"};
-  absl::StatusOr<AuditTable> table =
-      AuditTable::Open(stream, "the table", {"rates_after_rad_s[0]", "rates_after_rad_s[1]"}, skipped);
+  const Scene scene = {.system = Linkage{.links = {Link(), Link()}}};
+  absl::StatusOr<AuditTable> table = AuditTable::Open(stream, "the table", scene, skipped);
   CheckStatus(table.status());
   if (!table.ok()) return;
   int64_t before = 0;
@@ -164,7 +165,7 @@ void CheckAuditTable(const std::string& text, size_t most, bool skips) {
       if (!column->empty() && column->size() != rows.lines.size()) Fail("a column of another length");
     }
     for (size_t row = 0; row < rows.lines.size(); ++row) {
-      if (WhyInvalid(rows, row).empty()) Fail("an invalid row has no reason");
+      if (WhyInvalid(scene, rows, row).empty()) Fail("an invalid row has no reason");
     }
   }
   if (table->bytes() < before) Fail("fewer bytes are read than lines");

@@ -240,6 +240,15 @@ class BoundsAndAudits(unittest.TestCase):
         self.assertEqual([table.codes["regime"][row] for row in (1, 2)], ["REBOUND", "INVALID"])
         self.assertEqual((table.summary.rows, table.summary.invalid), (3, 1))
 
+    def test_rows_of_an_audit_may_differ_in_numbers_of_the_scene(self):
+        # Newton's coefficient is the ratio of the velocities of the contact, -v+/v-; here v is proportional to omega.
+        omega = np.array([-1.0, -2.0, -4.0])
+        for name in ("omega", "pendulum.omega_minus_rad_s"):
+            table = ricochet.audit_batch(PENDULUM, {name: omega, "rates_after": [[0.5]]})
+            np.testing.assert_allclose(table["coefficients.newton"], -0.5 / omega, rtol=1e-14)
+        with self.assertRaisesRegex(ricochet.InvalidRequest, "inputs.0..path = .pendulum.omgea"):
+            ricochet.audit_batch(PENDULUM, {"pendulum.omgea": omega, "rates_after": [[0.5]]})
+
     def test_rows_in_which_nothing_strikes_are_counted(self):
         batch = ricochet.solve_batch(PENDULUM, {"omega": [-1.0, 1.0, 2.0]}, ["newton"])
         self.assertEqual((batch.summary.rows, batch.summary.separating), (3, 2))

@@ -379,7 +379,11 @@ INSTANTIATE_TEST_SUITE_P(
             {.environment = {{"RICOCHETD_MAX_LIVE_CALL", "1"}}},
             {"RICOCHETD_MAX_LIVE_CALL in the environment is not an option; did you mean RICOCHETD_MAX_LIVE_CALLS?"}},
         BadCase{"Positional", {.flags = {"localhost:1"}}, {"localhost:1 is not expected: must follow an option"}},
-        BadCase{"Twice", {.flags = {"--drain-grace", "1", "--drain-grace", "2"}}, {"--drain-grace"}},
+        BadCase{"Twice",
+                {.flags = {"--drain-grace", "1", "--drain-grace", "2"}},
+                {"--drain-grace: must be given once, with"}},
+        BadCase{"NoValue", {.flags = {"--drain-grace"}}, {"--drain-grace: must be given once, with one value"}},
+        BadCase{"Section", {.file = "[limits]\ndrain-grace = 1\n"}, {"--config: [limits]: the file must have no sec"}},
         BadCase{"NoSuchFile", {.flags = {"--config", "/nonexistent.toml"}}, {"/nonexistent.toml"}},
         BadCase{"NoSuchFileByEnvironment",
                 {.environment = {{"RICOCHETD_CONFIG", "/nonexistent.toml"}}},
@@ -416,6 +420,15 @@ std::map<std::string, std::pair<std::string, std::string>> Ranges() {
     ranges[absl::StrReplaceAll(limit.name, {{"_", "-"}})] = {"1", std::to_string(limit.most)};
   }
   return ranges;
+}
+
+TEST(Options, TheLimitsThatAServerStatesAreThoseItKeeps) {
+  const auto stated = [](const char* bytes) {
+    const auto parsed = Parse("", {.flags = {"--max-request-bytes", bytes}});
+    return parsed.ok() ? ServerLimitsOf(std::get<Options>(*parsed)).max_message_bytes : -1;
+  };
+  EXPECT_EQ(stated("2000"), 2000);
+  EXPECT_EQ(stated("16777216"), int64_t{1} << 20) << "a request that is no batch";
 }
 
 TEST(Options, TheMemoryOfCallsHoldsTheLargestBatchAndItsAnswer) {

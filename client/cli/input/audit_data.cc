@@ -13,17 +13,21 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/strip.h"
 #include "client/cli/input/short_name.h"
+#include "core/audit/audit_parts.h"
 #include "core/base/decimal.h"
 #include "core/base/nearest.h"
+#include "core/scene/field.h"
+#include "core/scene/system_velocities.h"
 #include "ricochet/audit_columns.h"
+#include "ricochet/error.h"
 
 namespace ricochet::cli {
 namespace {
 
 absl::Status UnknownColumn(const std::string& cell, const std::string& name, const std::vector<std::string>& known) {
   return absl::InvalidArgumentError(absl::StrCat(name, " has the column \"", absl::CEscape(cell), "\": must be one of ",
-                                                 absl::StrJoin(known, ", "), DidYouMean(cell, known),
-                                                 "; --skip-column leaves a column out"));
+                                                 absl::StrJoin(known, ", "), ", or a field of the scene",
+                                                 DidYouMean(cell, known), "; --skip-column leaves a column out"));
 }
 
 // Returns why a value is not finite or below `least`; empty if neither is so.
@@ -35,6 +39,9 @@ std::string WhyWrong(absl::string_view name, const std::vector<double>& column, 
 
 }  // namespace
 
+AuditTable::AuditTable(CsvReader reader, const Scene& scene)
+    : reader_(std::move(reader)), velocities_(SystemVelocityPaths(scene.system)), fields_(AllFieldPaths(scene)) {}
+
 std::vector<std::string> AuditTable::KnownNames() const {
   std::vector<std::string> known;
   for (const NamedAuditColumn& column : kAuditColumns) known.emplace_back(column.name);
@@ -44,11 +51,14 @@ std::vector<std::string> AuditTable::KnownNames() const {
 
 std::optional<AuditTable::Place> AuditTable::PlaceOf(const std::string& cell) const {
   for (const NamedAuditColumn& known : kAuditColumns) {
-    if (cell == known.name) return Place{.values = known.values, .velocity = {}};
+    if (cell == known.name) return Place{.values = known.values, .velocity = {}, .field = {}};
   }
   const auto found = std::find(velocities_.begin(), velocities_.end(), cell);
-  if (found == velocities_.end()) return std::nullopt;
-  return Place{.values = nullptr, .velocity = static_cast<size_t>(found - velocities_.begin())};
+  if (found != velocities_.end()) {
+    return Place{.values = nullptr, .velocity = static_cast<size_t>(found - velocities_.begin()), .field = {}};
+  }
+  if (std::count(fields_.begin(), fields_.end(), cell) == 0) return std::nullopt;
+  return Place{.values = nullptr, .velocity = {}, .field = cell};
 }
 
 absl::Status AuditTable::SetPlaces(const std::string& name) {
@@ -59,7 +69,11 @@ absl::Status AuditTable::SetPlaces(const std::string& name) {
       places_.emplace_back();
       continue;
     }
-    const absl::StatusOr<std::string> full = FullName(cell, known, absl::StrCat(name, " has the column"));
+    absl::StatusOr<std::string> full = FullName(cell, known, absl::StrCat(name, " has the column"));
+    if (!full.ok() || !PlaceOf(*full).has_value()) {
+      absl::StatusOr<std::string> field = FullName(cell, fields_, absl::StrCat(name, " has the column"));
+      if (full.ok() || field.ok()) full = std::move(field);
+    }
     if (!full.ok()) return full.status();
     const std::optional<Place> place = PlaceOf(*full);
     if (!place.has_value()) return UnknownColumn(cell, name, known);
@@ -69,7 +83,7 @@ absl::Status AuditTable::SetPlaces(const std::string& name) {
     places_.push_back(place);
   }
   const auto has = [this](size_t velocity) {
-    return std::count(places_.begin(), places_.end(), Place{.values = nullptr, .velocity = velocity}) > 0;
+    return std::count(places_.begin(), places_.end(), Place{.values = nullptr, .velocity = velocity, .field = {}}) > 0;
   };
   std::vector<std::string> missing;
   for (size_t k = 0; k < velocities_.size(); ++k) {
@@ -84,13 +98,12 @@ absl::Status AuditTable::SetPlaces(const std::string& name) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<AuditTable> AuditTable::Open(std::istream& stream, const std::string& name,
-                                            std::vector<std::string> velocities,
+absl::StatusOr<AuditTable> AuditTable::Open(std::istream& stream, const std::string& name, const Scene& scene,
                                             const std::vector<std::string>& skipped) {
   absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, name);
   if (!reader.ok()) return reader.status();
   if (absl::Status status = reader->Skip(skipped); !status.ok()) return status;
-  AuditTable table(*std::move(reader), std::move(velocities));
+  AuditTable table(*std::move(reader), scene);
   if (absl::Status status = table.SetPlaces(name); !status.ok()) return status;
   return table;
 }
@@ -105,11 +118,16 @@ absl::StatusOr<AuditRows> AuditTable::Next(size_t most) {
   absl::StatusOr<CsvTable> read = reader_.Next(most);
   if (!read.ok()) return read.status();
   CsvTable& table = *read;
-  AuditRows rows{.columns = {}, .lines = std::move(table.lines), .bad_cells = {}, .velocities = velocities_};
+  AuditRows rows{
+      .columns = {}, .inputs = {}, .lines = std::move(table.lines), .bad_cells = {}, .velocities = velocities_};
   rows.columns.rates_after.resize(velocities_.size());
   for (size_t i = 0; i < places_.size(); ++i) {
     const std::optional<Place>& place = places_[i];
     if (!place.has_value()) continue;
+    if (!place->field.empty()) {
+      rows.inputs.push_back({.path = place->field, .values = std::move(table.columns[i])});
+      continue;
+    }
     (place->velocity.has_value() ? rows.columns.rates_after[*place->velocity] : rows.columns.*place->values) =
         std::move(table.columns[i]);
   }
@@ -118,7 +136,7 @@ absl::StatusOr<AuditRows> AuditTable::Next(size_t most) {
   return rows;
 }
 
-std::string WhyInvalid(const AuditRows& rows, size_t row) {
+std::string WhyInvalid(const Scene& scene, const AuditRows& rows, size_t row) {
   const AuditColumns& columns = rows.columns;
   if (!rows.bad_cells[row].empty()) return rows.bad_cells[row];
   for (const NamedAuditColumn& known : kAuditColumns) {
@@ -133,7 +151,14 @@ std::string WhyInvalid(const AuditRows& rows, size_t row) {
         WhyWrong(rows.velocities[i], columns.rates_after[i], row, std::numeric_limits<double>::lowest());
     if (!reason.empty()) return reason;
   }
-  return "the contact cannot have this velocity before the impact, or a number exceeds the largest double";
+  if (!rows.inputs.empty()) {
+    Scene of_row = scene;
+    std::optional<SceneContact> contact;
+    const std::vector<Violation> violations = audit::CheckRow(rows.inputs, row, of_row, contact);
+    if (!violations.empty()) return absl::StrCat(violations[0].field, " ", violations[0].description);
+  }
+  return "the contact cannot have this velocity before the impact, a number exceeds the largest double, or the path "
+         "of friction takes too many steps";
 }
 
 }  // namespace ricochet::cli

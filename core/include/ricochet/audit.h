@@ -30,10 +30,18 @@ using Observed = std::variant<std::monostate, ContactVelocity, ObservedRates>;
 // A call may have at most this many rows.
 inline constexpr int64_t kMostAuditRows = 8192;
 
+// A number of the scene that differs from row to row.
+struct InputColumn {
+  std::string path = {};            // Spelled as for an axis of a sweep.
+  std::vector<double> values = {};  // One for each row, or one for all.
+  friend bool operator==(const InputColumn&, const InputColumn&) = default;
+};
+
 // AuditColumns holds many impacts of one scene, one row for each impact. A column has one value for each row, or a
 // single value that holds for all rows; the longest column determines the number of rows. Systems in space, and only
 // they, have the columns of the second tangential direction. Velocities are those of the contact relative to the
-// surface; the velocities of the system after the impact may be stated in place of that of the contact.
+// surface; the velocities of the system after the impact may be stated in place of that of the contact. Velocities
+// before the impact and friction are refused beside inputs, which state numbers of the scene itself.
 struct AuditColumns {
   std::vector<double> tangential_m_s = {};  // Velocity before the impact; an empty column leaves that of the scene.
   std::vector<double> tangential_2_m_s = {};

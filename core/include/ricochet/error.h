@@ -25,7 +25,7 @@ enum class ErrorReason {
   kTooManyCalls = 4,         // RESOURCE_EXHAUSTED: too many live calls, or unread answers; try again later.
   kSweepTooLarge = 5,        // RESOURCE_EXHAUSTED: more points than the server allows in one call; ask for sub-ranges.
   kDraining = 6,             // UNAVAILABLE: the server is shutting down; ask another one, or try again later.
-  kNotEnded = 7,             // OUT_OF_RANGE: an impact that the bounds need did not end within its step budget.
+  kNotEnded = 7,             // OUT_OF_RANGE: an impact that bounds or an audit need did not end in its steps.
   kLimitExceeded = 8,        // RESOURCE_EXHAUSTED: larger than ricochet/limits.h allows here; the violations say where.
   kOverloaded = 9,           // RESOURCE_EXHAUSTED: too much work waits to be computed; try again later.
   kTimeLimit = 10,           // DEADLINE_EXCEEDED: the call took longer than the server allows any call of its kind.

@@ -36,13 +36,6 @@ struct FitUnknown {
   friend bool operator==(const FitUnknown&, const FitUnknown&) = default;
 };
 
-// A number of the scene that differs from row to row.
-struct FitInput {
-  std::string path = {};            // Spelled as for an axis of a sweep; no unknown.
-  std::vector<double> values = {};  // Finite; one for each row, or one for all.
-  friend bool operator==(const FitInput&, const FitInput&) = default;
-};
-
 // A number of the outcome that was measured.
 struct FitMeasured {
   std::string path = {};            // Spelled as a column of a sweep: "contact_velocity_after.normal_m_s".
@@ -68,9 +61,9 @@ inline constexpr double kHuberScale = 1.345, kCauchyScale = 2.385;
 inline constexpr double kLeastFitLossScale = 1e-6, kMostFitLossScale = 1e9;
 
 struct FitRequest {
-  Scene scene = {};                       // Gives every number that is neither unknown nor an input.
-  std::vector<FitUnknown> unknowns = {};  // At least one.
-  std::vector<FitInput> inputs = {};
+  Scene scene = {};                        // Gives every number that is neither unknown nor an input.
+  std::vector<FitUnknown> unknowns = {};   // At least one.
+  std::vector<InputColumn> inputs = {};    // Numbers that differ by row, finite; none is an unknown.
   std::vector<FitMeasured> measured = {};  // At least one, with as many measured numbers as there are unknowns or more.
   FitLoss loss = FitLoss::kUnspecified;
   std::optional<double> loss_scale = {};  // Of a robust loss only; absent: kHuberScale or kCauchyScale.

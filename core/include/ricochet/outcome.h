@@ -153,9 +153,9 @@ enum class AccuracyKind {
 
 // Accuracy of the outcome, with W and the velocity before it taken as exact, and the effort of the computation.
 struct Accuracy {
-  // Error of each component of the contact velocity after the impact, over V = max(|u0|, |v0|). Of a rigid impact in a
-  // plane it covers each impulse times its mobility over V, or over itself where that is larger, and each work over the
-  // sum of the magnitudes of the works, too.
+  // Error of each component of the contact velocity after the impact, over V = max(|u0|, |v0|). It says nothing of the
+  // other numbers: `errors` states how far each of them may be off, in the number's own unit, and leaves unset what is
+  // not known.
   double relative_error = 0.0;
   AccuracyKind kind = AccuracyKind::kUnspecified;
   int64_t steps = 0;             // 0 for a closed form.

@@ -134,6 +134,7 @@ struct AuditResponse {
 struct AuditBatchRequest {
   Scene scene = {};  // Its restitution and impact law are not used and may be left unset.
   AuditColumns columns = {};
+  std::vector<InputColumn> inputs = {};  // Numbers of the scene that differ by row; no two of one path.
   friend bool operator==(const AuditBatchRequest&, const AuditBatchRequest&) = default;
 };
 

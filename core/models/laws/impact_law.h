@@ -56,6 +56,9 @@ ImpactLawResult SolveChatterjeeRuina(const PlanarProblem& input, double e, doubl
 // Solves an impact by the law that is set. It has no solution if none is.
 ImpactLawResult SolveLaw(const ImpactLaw& law, const PlanarProblem& problem);
 
+// Estimates the error of the velocities of a solution, over max(|u0|, |v0|).
+double RelativeErrorOf(const ImpactLaw& law, const PlanarProblem& problem, const ImpactSolution& solution);
+
 }  // namespace ricochet::laws
 
 #endif  // RICOCHET_CORE_MODELS_LAWS_IMPACT_LAW_H_

@@ -11,6 +11,7 @@
 namespace ricochet::cli {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -46,6 +47,26 @@ TEST_F(CliAuditData, ACellThatIsNotFiniteIsNamed) {
   EXPECT_THAT(Audit(std::string(kHeader) + "0,nan,0.7\n").out, HasSubstr("normal_after_m_s = nan: must be finite\n"));
   EXPECT_THAT(Audit("rates_after_rad_s[0],rates_after_rad_s[1]\n0,inf\n").out,
               HasSubstr("rates_after_rad_s[1] = inf: must be finite\n"));
+}
+
+// Two spheres of radius R slide throughout, with e = 1/2: v' = -e v, u' = u - mu (1 + e) |v| and
+// omega' = -mu (1 + e) |v| m R/I, in exact fractions. The third row lacks a number.
+TEST_F(CliAuditData, ARowMayStateTheVelocitiesOfTheBodyBefore) {
+  const std::string table =
+      "velocity_t_m_s,velocity_n_m_s,"
+      "bodies_after[0].linear_m_s[0],bodies_after[0].linear_m_s[1],bodies_after[0].angular_rad_s[0]\n"
+      "3,-1,2.862,0.5,-137.99989324140748\n"
+      "4,-2,3.724,1,-275.99978648281495\n"
+      "4,,3.724,1,-276\n";
+  const CliResult text = Run({"audit", "--scene", TestDataPath("scenes/sphere_20.textproto"), "--data", "-"}, table);
+  EXPECT_THAT(text.out, HasSubstr("3 rows\n"));
+  EXPECT_THAT(text.out, ContainsRegex("admissible +2\n"));
+  EXPECT_THAT(text.out, HasSubstr("  row 2 (line 4): invalid: velocity_n_m_s is missing\n"));
+}
+
+TEST_F(CliAuditData, AnInputThatBreaksARuleOfTheSceneIsNamed) {
+  EXPECT_THAT(Audit("linkage.links[0].mass_kg,tangential_after_m_s,normal_after_m_s\n-1,0,1\n").out,
+              HasSubstr("  row 0 (line 2): invalid: linkage.links[0].mass_kg = -1: must be > 0\n"));
 }
 
 // The velocities of the system after the impact follow from those before it, which a contact velocity does not tell.

@@ -805,6 +805,28 @@ TEST(AuditSceneTest, ContactsThatAreNotRigidAreRefused) {
   EXPECT_EQ(fields(LocalSolver().Bounds({.scene = scene}).status()), forces);
 }
 
+// Friction of 10^80 takes more steps than the model has. Where W is singular, a search takes an impact for each point.
+TEST(AuditTest, APathThatTakesTooManyStepsIsNoVerdict) {
+  const Scene wedge = {
+      .system = SpatialContact{.w_per_kg = {2, 0.3, 0.5, 3, -0.4, 1.5}, .tangential_m_s = {1, 0.5}, .normal_m_s = -1},
+      .friction = {.kinetic_coefficient = 1e80}};
+  const Scene arm = {.system = Mechanism{.mass_matrix = {1.25, -1.25, -1.25, 1.9},
+                                         .jacobian = {-0.21148149232585067, -1.3385885695120145, 0.3790582835263828,
+                                                      -0.9068520388342067, 2.142752790918834, 0.4277250075941914},
+                                         .rates = {-2.0328627547563, -0.28224518188067366}},
+                     .friction = {.kinetic_coefficient = 1e100}};
+  for (const Scene& scene : {wedge, arm}) {
+    const absl::Status one = AuditOf(scene, {{0.1, 0.1}, 1.3}, 0.0).status();
+    EXPECT_EQ(one.code(), absl::StatusCode::kOutOfRange) << one;
+    EXPECT_EQ(ReasonOf(one), ErrorReason::kNotEnded);
+    const auto batch = LocalSolver().AuditBatch(
+        {.scene = scene,
+         .columns = {.tangential_after_m_s = {0.1}, .tangential_2_after_m_s = {0.1}, .normal_after_m_s = {1.3}}});
+    ASSERT_TRUE(batch.ok()) << batch.status();
+    EXPECT_EQ(batch->summary.invalid, (Tally{1, 0}));
+  }
+}
+
 TEST(AuditStopTest, TheSearchOfARankDeficientSpatialPathEndsAtItsNextStep) {
   const spatial::Problem problem{
       .w11 = 2.0, .w13 = 1.0, .w33 = 3.0, .u0 = {1.0, 0.0}, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3};

@@ -282,6 +282,14 @@ TEST(CostTest, AMethodWithoutTimeStaysInTheReportAndSaysSo) {
                                          Field(&CostRow::note, HasSubstr("time limit")))));
 }
 
+TEST(CostTest, AnImpactLawClaimsWhatItsOutcomeStates) {
+  Scene scene = {.system = PlanarContact{2.0, 0.5, 1.0, 1.0, -1.0}, .friction = {.kinetic_coefficient = 0.5}};
+  scene.impact_law = ChatterjeeRuinaLaw{0.0, -1.0};
+  const auto solved = LocalSolver().Solve({.scene = scene});
+  ASSERT_TRUE(solved.ok()) << solved.status();
+  EXPECT_EQ(StudyOf(scene).rows[0].claimed.total, solved->outcome.accuracy.relative_error);
+}
+
 TEST(CostTest, AMethodThatCannotProveItsAnswerFailsInWords) {
   const Study study = StudyOf(With(Contact()));  // u and v reach 0 at the same time.
   const CostRow& plain = study["planar, plain"];
@@ -289,6 +297,7 @@ TEST(CostTest, AMethodThatCannotProveItsAnswerFailsInWords) {
   EXPECT_THAT(plain.note, HasSubstr("cannot prove"));
   EXPECT_TRUE(plain.solve.has_value());
   EXPECT_FALSE(plain.achieved.has_value());
+  EXPECT_EQ(plain.claimed.total, std::numeric_limits<double>::infinity());
   EXPECT_EQ(study.summary.failed, 1);
 }
 

@@ -26,7 +26,7 @@ TEST_P(Coverage, OfTheTruthIsNinetyFivePercent) {
   constexpr int kSets = 1000;
   Case given = ContactCase();
   // What is known of robust losses holds for many numbers.
-  for (FitInput& input : given.inputs)
+  for (InputColumn& input : given.inputs)
     input.values.insert(input.values.end(), input.values.begin(), input.values.end());
   FitRequest exact = Noiseless(given);
   exact.loss = GetParam().loss;

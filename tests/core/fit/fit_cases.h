@@ -24,7 +24,7 @@ struct Case {
   Scene truth;
   std::vector<FitUnknown> unknowns;
   std::vector<double> true_values;
-  std::vector<FitInput> inputs;
+  std::vector<InputColumn> inputs;
   std::vector<std::pair<std::string, double>> measured;
 };
 
@@ -59,7 +59,7 @@ inline FitRequest Noiseless(const Case& given) {
   FitRequest request = {.scene = given.truth, .unknowns = given.unknowns, .inputs = given.inputs};
   BatchSetup setup = {.scene = given.truth};
   BatchRows rows;
-  for (const FitInput& input : given.inputs) {
+  for (const InputColumn& input : given.inputs) {
     setup.fields.push_back(input.path);
     rows.inputs.emplace_back(input.values);
   }

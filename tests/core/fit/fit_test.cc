@@ -304,7 +304,7 @@ double ChiSquaredAt(const FitRequest& request, const std::vector<double>& at) {
     setup.fields.push_back(request.unknowns[k].path);
     in.emplace_back(rows, at[k]);
   }
-  for (const FitInput& input : request.inputs) {
+  for (const InputColumn& input : request.inputs) {
     setup.fields.push_back(input.path);
     in.push_back(input.values);
   }
@@ -605,7 +605,7 @@ TEST(FitTest, TheProbabilityOfChiSquaredIsThatOfDataWhoseTruthLiesOnBounds) {
   given.truth.restitution = PoissonCoefficient{1.0};
   given.unknowns[0].start = 0.1;
   given.unknowns[1].high = 1.0;
-  for (FitInput& input : given.inputs) input.values.resize(2);
+  for (InputColumn& input : given.inputs) input.values.resize(2);
   const FitRequest exact = Noiseless(given);
   Noise noise(20261129);
   int rare = 0;

@@ -304,6 +304,23 @@ std::vector<Note> NotesOf(const Scene& scene, const DemandFields& demand = {}) {
   return response->outcome.notes;
 }
 
+// Without friction the energetic coefficient is 1; with it, 1.0307 by arbitrary precision.
+TEST(NotesTest, AVerdictThatWhatIsLeftOutMayTurnSaysSo) {
+  const Scene scene = {
+      .system = PlanarContact{0.7864519654934002, 0.939606137701005, 12.554953596343825, -0.18993242225129414,
+                              -1.5790063416798128},
+      .friction = {.kinetic_coefficient = 0.0022966481810994355, .static_coefficient = 1.1947407514087647},
+      .restitution = NewtonCoefficient{1.0}};
+  const std::vector<Note> notes = NotesOf(scene, {.relative_tolerance = 0.1});
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].path, "admissible");
+  EXPECT_THAT(notes[0].text, HasSubstr("above 1"));
+  EXPECT_TRUE(NotesOf(scene, {.relative_tolerance = 0.0}).empty());
+  Scene plastic = scene;
+  plastic.restitution = NewtonCoefficient{0.5};
+  EXPECT_TRUE(NotesOf(plastic, {.relative_tolerance = 0.1}).empty());
+}
+
 TEST(NotesTest, AnAnswerWithoutTheDurationOfASpringSaysHowToAskForIt) {
   const std::vector<Note> notes = NotesOf(OnALinearSpring());
   ASSERT_EQ(notes.size(), 1U);

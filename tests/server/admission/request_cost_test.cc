@@ -46,6 +46,8 @@ TEST(RequestCost, EachCauseMakesACallDear) {
   arm.system = Mechanism{.rates = std::vector<double>(64)};
   EXPECT_EQ(CostOf(SolveRequest{.scene = arm}).cause, CostCause::kLinks);
   EXPECT_EQ(CostOf(AuditRequest{.scene = Chain(128), .observed = {}}).cause, CostCause::kLinks);
+  EXPECT_EQ(CostOf(AuditBatchRequest{.inputs = {{.path = {}, .values = std::vector<double>(8192)}}}).cause,
+            CostCause::kRows);
   EXPECT_EQ(CostOf(AuditBatchRequest{.scene = {}, .columns = {.rates_after = {std::vector<double>(8192)}}}).cause,
             CostCause::kRows);                                                                // 130 ms
   EXPECT_EQ(CostOf(MultiContactRequest{.scene = SpatialBox()}).cause, CostCause::kContacts);  // 10 ms

@@ -25,6 +25,8 @@ TEST(MostElements, AreEnoughForTheLargestRequestWithinTheLimits) {
   Limits limits;
   limits.max_columns = 100'000;
   EXPECT_GE(MostElements(limits), 100'000);
+  limits = {.max_contact_states = 100'000};
+  EXPECT_GE(MostElements(limits), 100'000);
 }
 
 class AnsweringService final : public v1::ImpactService::Service {
