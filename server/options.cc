@@ -419,7 +419,7 @@ std::string InWords(const CLI::App& app, const CLI::ParseError& error) {
   }
   absl::string_view what = error.what();
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) {
-    return absl::StrCat(what.substr(0, what.find(": ")), ": must be given once, with one value");
+    return absl::StrCat(what.substr(0, what.find(": ")), ": must be given once, with a value");
   }
   if (absl::ConsumePrefix(&what, "INI was not able to parse ")) {
     if (absl::ConsumeSuffix(&what, ".++"))

@@ -17,6 +17,7 @@
 #include "client/cli/terminal/progress.h"
 #include "client/cli/text/json_text.h"
 #include "core/audit/audit_scene.h"
+#include "core/audit/input_scene.h"
 #include "core/base/counted.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
@@ -107,6 +108,16 @@ class Writer {
   bool list_;
 };
 
+// Says why an audit of the scene calls a row invalid.
+std::string WhyInvalidIn(const Scene& scene, const AuditRows& rows, size_t row) {
+  if (std::string cell = WhyInvalid(rows, row); !cell.empty()) return cell;
+  std::optional<SceneContact> contact;
+  const std::vector<Violation> violations = audit::InputScene(scene, rows.inputs).SetRow(row, contact);
+  if (!violations.empty()) return absl::StrCat(violations[0].field, " ", violations[0].description);
+  return "the contact cannot have this velocity before the impact, a number exceeds the largest double, or the audit "
+         "takes too many steps";
+}
+
 // Audits one part of the table after the other.
 class Auditor {
  public:
@@ -125,7 +136,7 @@ class Auditor {
     for (size_t i = 0; i < rows.lines.size(); ++i) {
       const AuditReport& report = response->reports[i];
       const bool is_invalid = report.regime == Regime::kInvalid;
-      const Row row{ending_.summary.rows, rows.lines[i], report, is_invalid ? WhyInvalid(scene_, rows, i) : ""};
+      const Row row{ending_.summary.rows, rows.lines[i], report, is_invalid ? WhyInvalidIn(scene_, rows, i) : ""};
       if (is_invalid && named_++ < kNamedRows) ending_.first_invalid += Complaint(row);
       if (!data_.picture.file.empty()) plot_.Add(report);
       audit::Add(row.index, report, ending_.summary);
@@ -163,10 +174,16 @@ class Auditor {
   size_t named_ = 0;
 };
 
-// The rows of one call. A solver that does not tell its limits refuses what is too much.
-size_t RowsOfACall(const Solver& solver) {
+// The rows of one call with so many columns. A solver that does not tell its limits refuses what is too much.
+size_t RowsOfACall(const Solver& solver, size_t columns) {
   const absl::StatusOr<InfoResponse> info = solver.Info({});
-  return static_cast<size_t>(info.ok() ? std::min(kMostAuditRows, info->limits.max_audit_rows) : kMostAuditRows);
+  int64_t most = info.ok() ? std::min(kMostAuditRows, info->limits.max_audit_rows) : kMostAuditRows;
+  if (info.ok() && info->server_limits.has_value()) {
+    // A quarter of a message is left for the scene.
+    const int64_t bytes_of_columns = info->server_limits->max_message_bytes / 4 * 3;
+    most = std::min(most, bytes_of_columns / static_cast<int64_t>(columns * sizeof(double)));
+  }
+  return static_cast<size_t>(std::max<int64_t>(most, 1));
 }
 
 absl::Status AuditAll(AuditTable& table, int64_t size, const AuditDataOptions& data, bool rows_to_terminal,
@@ -223,8 +240,8 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
   const Writer writer(options.format, scene, data.list);
   Auditor auditor(solver, scene, data, writer, *output);
   const bool has_rows = data.list || options.format != Format::kText;
-  const absl::Status audited =
-      AuditAll(*table, size, data, has_rows && options.output.empty(), RowsOfACall(solver), auditor);
+  const absl::Status audited = AuditAll(*table, size, data, has_rows && options.output.empty(),
+                                        RowsOfACall(solver, table->columns() + 1), auditor);
   const absl::Status read = CheckWholeRead(stream, data.file);
   return read.ok() ? audited : read;
 }

@@ -8,10 +8,10 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
+#include "core/answer/derivative_sides.h"
 #include "core/base/nearest.h"
 #include "core/models/planar_outputs.h"
 #include "core/scene/field.h"
-#include "core/scene/system_velocities.h"
 
 namespace ricochet {
 namespace {
@@ -24,8 +24,8 @@ std::vector<std::string> OutputPaths(const Scene& scene) {
     if (tangential == 2 && absl::EndsWith(path, "[0]"))
       paths.push_back(absl::StrCat(absl::StripSuffix(path, "0]"), "1]"));
   }
-  const std::vector<std::string> velocities = SystemVelocityPaths(scene.system);
-  paths.insert(paths.end(), velocities.begin(), velocities.end());
+  const std::vector<std::string> linear = LinearNumberPaths(scene.system);
+  paths.insert(paths.end(), linear.begin(), linear.end());
   if (TakesTime(scene)) {
     for (const char* number : {"duration_s", "peak_normal_n", "peak_tangential_n", "indentation_m"}) {
       paths.push_back(absl::StrCat("contact.", number));
@@ -69,10 +69,11 @@ std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& 
     violations.push_back(MakeViolation("excluded", "is set", "not be, with derivatives: they leave nothing out"));
   }
   const DerivativePaths known = AllDerivativePaths(scene);
-  CheckPaths("of", paths.of, known.of,
-             "a coefficient, an impulse, a contact velocity, a velocity of the system, or a work other than that of a "
-             "spring",
-             violations);
+  CheckPaths(
+      "of", paths.of, known.of,
+      "a coefficient, an impulse, a contact velocity, a velocity or momentum of the system, or a work other than "
+      "that of a spring",
+      violations);
   CheckPaths("by", paths.by, known.by, "a number of the scene, with the definition of restitution that it states",
              violations);
   return violations;

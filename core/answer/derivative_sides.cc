@@ -1,6 +1,9 @@
 #include "core/answer/derivative_sides.h"
 
+#include <variant>
+
 #include "absl/strings/str_cat.h"
+#include "core/scene/system_velocities.h"
 
 namespace ricochet {
 
@@ -27,6 +30,14 @@ double ScaleOf(std::string_view path, double speed, double impulse) {
   if (path.starts_with("contact_velocity_after.")) return speed;
   if (path.starts_with("work.") || path == "energy_change_j") return impulse * speed;
   return 0.0;
+}
+
+std::vector<std::string> LinearNumberPaths(const System& system) {
+  std::vector<std::string> paths = SystemVelocityPaths(system);
+  const auto* const mechanism = std::get_if<Mechanism>(&system);
+  const size_t coordinates = mechanism == nullptr ? 0 : mechanism->rates.size();
+  for (size_t i = 0; i < coordinates; ++i) paths.push_back(absl::StrCat("momentum_change[", i, "]"));
+  return paths;
 }
 
 }  // namespace ricochet

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "absl/strings/string_view.h"
 #include "ricochet/derivatives.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 
@@ -30,14 +33,29 @@ inline absl::string_view HeadOf(absl::string_view path) { return path.substr(0, 
 // `speed` before the impact and takes the normal impulse `impulse`; 0 for a number of another kind.
 double ScaleOf(std::string_view path, double speed, double impulse);
 
-// Returns the same for the velocity of the system at `place` of Reduction::before.
+// The numbers of a system that are linear in the impulse, `before` + `of_impulse` . (f, tau): its velocities, and then,
+// of a mechanism, the momentum that each coordinate takes.
+struct LinearNumber {
+  double before = 0.0;
+  const double* of_impulse = nullptr;
+};
+std::vector<std::string> LinearNumberPaths(const System& system);
+
+// `rows` is a reduction, or the derivative of one.
+template <size_t kDirections, typename Rows>
+LinearNumber LinearNumberAt(size_t place, const Rows& rows) {
+  const size_t velocities = rows.before.size();
+  if (place < velocities) return {rows.before[place], &rows.response[kDirections * place]};
+  return {0.0, &rows.momentum[kDirections * (place - velocities)]};
+}
+
+// Returns the size to which the rounding of the linear number at `place` is relative.
 template <typename Reduction>
-double VelocityScaleOf(const Reduction& reduction, size_t place, double impulse) {
-  double response = 0.0;
-  for (size_t i = 0; i < Reduction::kDirections; ++i) {
-    response += std::fabs(reduction.response[place * Reduction::kDirections + i]);
-  }
-  return std::fabs(reduction.before[place]) + impulse * response;
+double LinearScaleOf(const Reduction& reduction, size_t place, double impulse) {
+  const auto [before, of_impulse] = LinearNumberAt<Reduction::kDirections>(place, reduction);
+  double sum = 0.0;
+  for (size_t i = 0; i < Reduction::kDirections; ++i) sum += std::fabs(of_impulse[i]);
+  return std::fabs(before) + impulse * sum;
 }
 
 }  // namespace ricochet

@@ -21,8 +21,8 @@ constexpr double kBeside = 0x1p-300;
 constexpr size_t kOutputs = kPlanarOutputPaths.size();
 // Two rates that differ by less than this part of them are one. So are those that differ by less than kNegligible of
 // the largest rate of any number of the outcome, each over its size: what cancels in them leaves as much. Beside a
-// number that is 0 kSlight comes from what the derivative itself changes by between the sides. A doubling of the number
-// that changes the outcome by less than kUnseen of its size is rounding on both sides.
+// number that is 0 kSlight comes from what the derivative itself changes by between the sides. Where both sides take
+// the same course, a doubling of the number that changes the outcome by less than kUnseen of its size is rounding.
 constexpr double kRounding = 0x1p-40;
 constexpr double kNegligible = 0x1p-60;
 constexpr double kSlight = 0x1p-200;
@@ -34,12 +34,12 @@ planar::Problem ProblemOf(const Scene& scene, const SceneContact& contact) {
   return planar::MakeProblem(std::get<PlanarReduction>(contact.reduction), scene.restitution, contact.coefficients);
 }
 
-// A number of the impact, or a velocity of the system, q' + X (f, tau).
+// A number of the impact, or one of the system that is linear in its impulse.
 double ValueAt(size_t place, const PlanarReduction& reduction,
                const std::array<double, kPlanarOutputCount>& of_impact) {
   if (place < kOutputs) return of_impact[place];
-  const double* const x = &reduction.response[2 * (place - kOutputs)];
-  return reduction.before[place - kOutputs] + x[0] * of_impact[PlaceOf(PlanarOutput::kTangentialImpulse)] +
+  const auto [before, x] = LinearNumberAt<2>(place - kOutputs, reduction);
+  return before + x[0] * of_impact[PlaceOf(PlanarOutput::kTangentialImpulse)] +
          x[1] * of_impact[PlaceOf(PlanarOutput::kNormalImpulse)];
 }
 
@@ -174,19 +174,19 @@ bool ExactDerivatives::LosesRank(const Side& side) const {
 double ExactDerivatives::RateOf(const Side& side, size_t place) const {
   const planar::Tangent& tangent = impacts_[side.impact].tangent;
   if (place < kOutputs) return tangent.rate[place] / side.step;
-  const double* const x = &ReductionOf(side).response[2 * (place - kOutputs)];
-  const double* const d_x = &side.contact_tangent.response[2 * (place - kOutputs)];
+  const double* const x = LinearNumberAt<2>(place - kOutputs, ReductionOf(side)).of_impulse;
+  const auto [d_before, d_x] = LinearNumberAt<2>(place - kOutputs, side.contact_tangent);
   const size_t f = PlaceOf(PlanarOutput::kTangentialImpulse);
   const size_t tau = PlaceOf(PlanarOutput::kNormalImpulse);
-  const double rate = side.contact_tangent.before[place - kOutputs] + d_x[0] * tangent.value[f] +
-                      d_x[1] * tangent.value[tau] + x[0] * tangent.rate[f] + x[1] * tangent.rate[tau];
+  const double rate = d_before + d_x[0] * tangent.value[f] + d_x[1] * tangent.value[tau] + x[0] * tangent.rate[f] +
+                      x[1] * tangent.rate[tau];
   return rate / side.step;
 }
 
 double ExactDerivatives::SizeOf(size_t place) const {
   const double impulse = values_here_[PlaceOf(PlanarOutput::kNormalImpulse)];
   if (place < kOutputs) return ScaleOf(kPlanarOutputPaths[place], speed_here_, impulse);
-  return VelocityScaleOf(std::get<PlanarReduction>(here_->reduction), place - kOutputs, impulse);
+  return LinearScaleOf(std::get<PlanarReduction>(here_->reduction), place - kOutputs, impulse);
 }
 
 // True if the side lies beside a number that is 0.
@@ -234,7 +234,9 @@ Threshold ExactDerivatives::ThresholdOf(const Number& number) const {
 
 double ExactDerivatives::LargestRate(const Number& number) const {
   double largest = 0.0;
-  for (size_t place = 0; place < kOutputs + std::get<PlanarReduction>(here_->reduction).before.size(); ++place) {
+  const auto& reduction = std::get<PlanarReduction>(here_->reduction);
+  const size_t linear = reduction.before.size() + reduction.momentum.size() / 2;
+  for (size_t place = 0; place < kOutputs + linear; ++place) {
     const double rate = LargestRate(number, place) / SizeOf(place);
     if (std::isfinite(rate)) largest = std::max(largest, rate);
   }
@@ -258,7 +260,10 @@ Derivative ExactDerivatives::At(size_t of, size_t by) const {
   bool agree =
       both && std::fabs(*below.rate - *above.rate) <= kRounding * (std::fabs(*below.rate) + std::fabs(*above.rate));
   if (both && !agree) {
-    const double slight = IsMoved(number.above) ? kSlight : kUnseen / std::fabs(number.above.step);
+    const Threshold threshold = ThresholdOf(number);
+    const bool has_one_course = threshold == Threshold::kUnspecified || threshold == Threshold::kSpeedTable;
+    double slight = IsMoved(number.above) ? kSlight : 0.0;
+    if (!IsMoved(number.above) && has_one_course) slight = kUnseen / std::fabs(number.above.step);
     const double least = SizeOf(places_[of]) * std::max(slight, kNegligible * LargestRate(number));
     agree = std::fabs(*below.rate - *above.rate) <= least;
     if (agree) below.rate = above.rate = 0.5 * (*below.rate + *above.rate);

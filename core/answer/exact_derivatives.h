@@ -80,7 +80,7 @@ class ExactDerivatives {
   OneSided LimitOf(const Side& side, size_t place) const;
   Threshold ThresholdOf(const Number& number) const;
 
-  // Where each of paths.of stands among the numbers of the impact and, after them, the velocities of the system.
+  // Where each of paths.of stands among the numbers of the impact and, after them, the linear ones.
   std::vector<size_t> places_;
   std::deque<Number> numbers_;  // A deque leaves its elements where they are.
   // These belong to the last scene itself.

@@ -47,8 +47,8 @@ void AddUndetermined(const char* path, std::string text, Outcome& outcome) {
 }
 
 // Adds the note for a verdict that the effects left out, which change velocities by up to `negligible` of the speed
-// before, may turn. Near its limit 1, the energetic coefficient changes by some four times as much. Where it is stated
-// it stays what it is.
+// before, may turn. The works, and near its limit 1 the energetic coefficient, then change by a few times as much; 8 is
+// above what random scenes need (VerdictNoteTest). Where the coefficient is stated it stays what it is.
 void AddVerdictNote(const Restitution& restitution, double negligible, Outcome& outcome) {
   constexpr double kOfCoefficient = 8.0;
   if (!outcome.admissible || std::holds_alternative<EnergeticCoefficient>(restitution)) return;

@@ -16,7 +16,6 @@
 #include "core/answer/scene_outcome.h"
 #include "core/contact/scene_contact.h"
 #include "core/plan/number_demand.h"
-#include "core/scene/system_velocities.h"
 #include "core/scene/validate.h"
 #include "ricochet/outcome_numbers.h"
 
@@ -74,16 +73,15 @@ class OutcomeSource final : public SampleSource {
     FindPlaces(outcome, of);
     if (!contact.has_value()) contact.emplace(scene);
     const std::vector<double> numbers = NumbersOf(outcome);
-    const std::vector<std::string> velocities = SystemVelocityPaths(scene.system);
+    const std::vector<std::string> linear = LinearNumberPaths(scene.system);
     for (size_t i = 0; i < of.size(); ++i) {
       const double value = At(places_[i], numbers);
-      const auto velocity =
-          static_cast<size_t>(std::find(velocities.begin(), velocities.end(), of[i]) - velocities.begin());
+      const auto place = static_cast<size_t>(std::find(linear.begin(), linear.end(), of[i]) - linear.begin());
       const double scale = std::visit(
           [&](const auto& reduction) {
             const double impulse = outcome.impulse.normal_total_n_s;
-            return velocity < velocities.size() ? VelocityScaleOf(reduction, velocity, impulse)
-                                                : ScaleOf(of[i], SpeedOf(reduction), impulse);
+            return place < linear.size() ? LinearScaleOf(reduction, place, impulse)
+                                         : ScaleOf(of[i], SpeedOf(reduction), impulse);
           },
           contact->reduction);
       scales_.push_back(

@@ -439,14 +439,14 @@ PathPoint PendulumAt(pendulum::Problem problem, double omega) {
 
 absl::Status PathTooLong() {
   return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kNotEnded,
-                   "the path of the impact under friction, to which the observation is compared, takes more steps than "
-                   "the model has");
+                   "the impact under this friction, with which the observation is compared, takes more steps than an "
+                   "audit has");
 }
 
 // NearestPoint searches the point of a spatial path nearest to v+, for tau in [0, end]: golden section around each step
 // that lies nearer than its neighbours. Steps are equal, and in proportion to tau towards the start, as the end may lie
-// far beyond the impact. Each solves an impact, and `stopped` is asked before each. All together may take as many steps
-// as twenty impacts, of which most take under a hundred.
+// far beyond the impact. Each solves an impact, and `stopped` is asked before each. All together may take kMostSteps of
+// the model; most impacts take under a hundred.
 class NearestPoint {
  public:
   NearestPoint(const spatial::Problem& problem, const Contact<3>& contact, absl::FunctionRef<bool()> stopped)
@@ -490,12 +490,13 @@ class NearestPoint {
   absl::Status CheckProgress() const {
     constexpr int64_t kMostSteps = 200'000;
     if (stopped_()) return absl::CancelledError("the audit was stopped by its caller");
-    return steps_ > kMostSteps ? PathTooLong() : absl::OkStatus();
+    return has_lost_path_ || steps_ > kMostSteps ? PathTooLong() : absl::OkStatus();
   }
 
   double DistanceAt(double tau) {
     const PathPoint point = PathAt(problem_, tau);
     steps_ += point.steps;
+    has_lost_path_ = has_lost_path_ || point.regime == Regime::kUnspecified;
     return DistanceTo(point);
   }
 
@@ -524,6 +525,7 @@ class NearestPoint {
   const Contact<3>& contact_;
   absl::FunctionRef<bool()> stopped_;
   int64_t steps_ = 0;
+  bool has_lost_path_ = false;  // The model did not come to a point.
 };
 
 // Moves a point of the path back by `change` (m/s), to first order in the way that the velocity goes with tau.
@@ -545,11 +547,14 @@ absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& proble
   if (start.regime != Regime::kSeparating) {
     // The path comes no nearer once its normal velocity is above v+_n by the distance from its start.
     const double farthest = std::max(contact.after[2], 0.0) + search.DistanceTo(start);
-    const double likely = PathWhereNormalIs(problem, std::max(contact.after[2], 0.0)).tau;
-    const absl::StatusOr<double> tau = search.Find(PathWhereNormalIs(problem, farthest).tau, likely);
+    const PathPoint likely = PathWhereNormalIs(problem, std::max(contact.after[2], 0.0));
+    const PathPoint end = PathWhereNormalIs(problem, farthest);
+    if (likely.regime == Regime::kUnspecified || end.regime == Regime::kUnspecified) return PathTooLong();
+    const absl::StatusOr<double> tau = search.Find(end.tau, likely.tau);
     if (!tau.ok()) return tau.status();
     point = PathAt(problem, *tau);
     moved_back = MovedBack(problem, point, std::sqrt(3.0) * error);
+    if (moved_back.regime == Regime::kUnspecified) return PathTooLong();
   }
   AuditReport report = AuditPoint(point, moved_back, contact, error);
   const double distance = search.DistanceTo(point);

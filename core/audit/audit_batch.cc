@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/answer/scene_outcome.h"
 #include "core/audit/audit_parts.h"
@@ -31,6 +32,13 @@ struct ColumnRule {
   const char* refused_for = nullptr;  // Null if it may have the column.
 };
 
+// True if an input states friction, or something else.
+bool HasInput(const AuditBatchRequest& request, bool of_friction) {
+  return std::any_of(request.inputs.begin(), request.inputs.end(), [of_friction](const InputColumn& input) {
+    return absl::StartsWith(input.path, "friction.") == of_friction;
+  });
+}
+
 ColumnRule RuleOf(const NamedAuditColumn& column, const AuditBatchRequest& request, bool is_planar) {
   const AuditColumns& in = request.columns;
   ColumnRule rule = {absl::StrCat("columns.", column.name), in.*column.values};
@@ -43,10 +51,10 @@ ColumnRule RuleOf(const NamedAuditColumn& column, const AuditBatchRequest& reque
   } else if (column.part == AuditColumnPart::kBefore && has_rates) {
     // The velocities of the system after the impact follow from those before it, not from the contact's alone.
     rule.refused_for = "beside rates_after, the velocities before are those of the scene and its inputs";
-  } else if (!request.inputs.empty() && column.part == AuditColumnPart::kBefore) {
+  } else if (column.part == AuditColumnPart::kBefore && HasInput(request, /*of_friction=*/false)) {
     rule.refused_for = "beside inputs, which state the velocities before by their fields of the scene";
-  } else if (!request.inputs.empty() && column.values == &AuditColumns::friction) {
-    rule.refused_for = "beside inputs, which state friction as friction.kinetic_coefficient";
+  } else if (column.values == &AuditColumns::friction && HasInput(request, /*of_friction=*/true)) {
+    rule.refused_for = "beside inputs of the scene's friction";
   }
   return rule;
 }
@@ -177,21 +185,20 @@ AuditRows::Impact::Impact(Scene its_scene, const SceneContact& contact, bool fro
       reduction(contact.reduction),
       problem(audit::MakeProblem(scene, contact, from_own_velocity)) {}
 
-std::optional<AuditRows::Impact> AuditRows::ImpactAt(size_t row) const {
-  Scene scene = request_.scene;
+std::optional<AuditRows::Impact> AuditRows::ImpactAt(size_t row, audit::InputScene& own) const {
   std::optional<SceneContact> contact;
-  if (!audit::CheckRow(request_.inputs, row, scene, contact).empty()) return std::nullopt;
-  if (!FitsDoubles(contact->reduction)) return std::nullopt;
-  return Impact(std::move(scene), *contact, /*from_own_velocity=*/true);
+  if (!own.SetRow(row, contact).empty() || !FitsDoubles(contact->reduction)) return std::nullopt;
+  return Impact(own.scene(), *contact, /*from_own_velocity=*/!HasVelocityBefore(columns_));
 }
 
-absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, absl::FunctionRef<bool()> stopped) const {
-  std::optional<Impact> own;
+absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, audit::InputScene& own,
+                                             absl::FunctionRef<bool()> stopped) const {
+  std::optional<Impact> of_row;
   if (!shared_.has_value()) {
-    own = ImpactAt(row);
-    if (!own.has_value()) return AuditReport{.regime = Regime::kInvalid};
+    of_row = ImpactAt(row, own);
+    if (!of_row.has_value()) return AuditReport{.regime = Regime::kInvalid};
   }
-  const Impact& impact = own.has_value() ? *own : *shared_;
+  const Impact& impact = of_row.has_value() ? *of_row : *shared_;
   const audit::AnyProblem problem = ProblemAt(row, impact);
   const audit::Observation seen = ObservationAt(row, impact.scene);
   if (!IsValid(problem, seen)) return AuditReport{.regime = Regime::kInvalid};

@@ -11,6 +11,7 @@
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
 #include "core/audit/audit.h"
+#include "core/audit/input_scene.h"
 #include "core/contact/scene_contact.h"
 #include "ricochet/audit.h"
 #include "ricochet/scene.h"
@@ -18,7 +19,7 @@
 
 namespace ricochet {
 
-// Thread safety: several threads may audit rows at once.
+// Thread safety: several threads may audit rows at once, each with a scene of its own.
 class AuditRows {
  public:
   // The request must outlive this object.
@@ -30,7 +31,8 @@ class AuditRows {
 
   // A row that breaks a rule, whose report overflows or whose path takes too many steps is reported as kInvalid.
   // Errors: CANCELLED once `stopped` returns true.
-  absl::StatusOr<AuditReport> Audit(size_t row, absl::FunctionRef<bool()> stopped) const;
+  // `own` is a scene of the caller's thread, with the inputs of the request.
+  absl::StatusOr<AuditReport> Audit(size_t row, audit::InputScene& own, absl::FunctionRef<bool()> stopped) const;
 
  private:
   // The impact that a row, or all rows, begin from.
@@ -46,7 +48,7 @@ class AuditRows {
       : request_(request), columns_(request.columns), size_(size) {}
 
   // Nothing if the scene of the row breaks a rule or exceeds the range of doubles.
-  std::optional<Impact> ImpactAt(size_t row) const;
+  std::optional<Impact> ImpactAt(size_t row, audit::InputScene& own) const;
   audit::AnyProblem ProblemAt(size_t row, const Impact& impact) const;
   void SetVelocity(size_t row, pendulum::Problem& problem) const;
   void SetVelocity(size_t row, planar::Problem& problem) const;

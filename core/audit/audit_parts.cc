@@ -4,18 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
-#include "absl/status/statusor.h"
-#include "absl/strings/str_cat.h"
-#include "core/base/invariant.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/plan/scene_problem.h"
-#include "core/scene/driven_fields.h"
-#include "core/scene/field.h"
 #include "core/scene/rigid.h"
 #include "core/scene/validate.h"
 
@@ -52,33 +46,6 @@ std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact
   if (!violations.empty()) return violations;
   if (!contact.has_value()) contact.emplace(scene);
   return CheckContact(scene, *contact);
-}
-
-std::vector<Violation> CheckInputs(const Scene& scene, const std::vector<InputColumn>& inputs) {
-  if (std::holds_alternative<std::monostate>(scene.system)) return Validate(scene, RestitutionIs::kOptional);
-  std::vector<std::string> paths;
-  for (const InputColumn& input : inputs) paths.push_back(input.path);
-  Scene driven = scene;
-  const DrivenFields fields(
-      paths, [](size_t i) { return absl::StrCat("inputs[", i, "]"); }, ".path", driven);
-  if (!fields.violations().empty()) return fields.violations();
-  std::optional<SceneContact> unused;
-  std::vector<Violation> violations =
-      Validate(driven, RestitutionIs::kOptional, unused,
-               [&](const Violation& violation) { return !fields.CanBeCured(violation); });
-  if (violations.empty()) RequireRigid(driven, RigidIn::kNormal, "for an audit", violations);
-  return violations;
-}
-
-std::vector<Violation> CheckRow(const std::vector<InputColumn>& inputs, size_t row, Scene& scene,
-                                std::optional<SceneContact>& contact) {
-  for (const auto& [path, values] : inputs) {
-    const double value = values.size() == 1 ? values[0] : values[row];
-    const absl::StatusOr<Field> field = ResolveField(path, scene);
-    CheckInvariant(field.ok(), "the inputs of an audit were checked");
-    if (!field->Set(value) && path == kPhi) return {*WhyNoPhi(value)};
-  }
-  return CheckScene(scene, contact);
 }
 
 Scene WithoutRestitution(Scene scene) {

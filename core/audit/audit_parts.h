@@ -19,11 +19,6 @@ namespace ricochet::audit {
 // Lists what makes the scene no contact to audit. Its restitution and impact law may be left unset.
 // `contact` is that of a scene without violations.
 std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact);
-// Lists what is wrong with the paths of inputs, and what makes the scene none to audit whatever they state.
-std::vector<Violation> CheckInputs(const Scene& scene, const std::vector<InputColumn>& inputs);
-// Sets the inputs of a row in `scene`, whose inputs have been checked, and does what CheckScene does.
-std::vector<Violation> CheckRow(const std::vector<InputColumn>& inputs, size_t row, Scene& scene,
-                                std::optional<SceneContact>& contact);
 
 // Removes the restitution and the impact law, which an audit does not use.
 Scene WithoutRestitution(Scene scene);

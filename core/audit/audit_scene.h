@@ -17,7 +17,8 @@ namespace ricochet {
 
 // Audits one impact. `stopped` is asked before each solution of an audit that takes many.
 // Errors: INVALID_ARGUMENT with every violation; OUT_OF_RANGE if W, the velocities or the report exceed the largest
-// double; CANCELLED once `stopped` returns true. The engine is left to the caller.
+// double, or the impact under friction takes too many steps; CANCELLED once `stopped` returns true. The engine is left
+// to the caller.
 absl::StatusOr<AuditResponse> AuditScene(const AuditRequest& request, absl::FunctionRef<bool()> stopped);
 
 namespace audit {

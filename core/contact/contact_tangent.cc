@@ -180,7 +180,10 @@ void SetCoefficients(const Scene& scene, const SceneContact& contact, const Scen
 
 struct ContactTangents::Bodies {
   Bodies(const System& system, bool w_is_rank_one)
-      : motion(MotionOf(system)), free(FreeCoordinatesOf(system, motion.rates.size())), is_rank_one(w_is_rank_one) {
+      : motion(MotionOf(system)),
+        free(FreeCoordinatesOf(system, motion.rates.size())),
+        is_rank_one(w_is_rank_one),
+        takes_momentum(std::holds_alternative<Mechanism>(system)) {
     if (free.empty()) return;
     cholesky.compute(motion.mass(free, free));
     response = cholesky.solve(motion.jt(free, Eigen::all));
@@ -193,6 +196,7 @@ struct ContactTangents::Bodies {
     tangent.v0 = d_velocity(1);
     tangent.before.assign(d.rates.begin(), d.rates.end());
     tangent.response.resize(static_cast<size_t>(2 * d.rates.size()));
+    if (takes_momentum) tangent.momentum.resize(tangent.response.size());
     if (is_rank_one) tangent.keeps_rank_one = KeepsRowsParallel(d.jt);
     if (free.empty()) return;  // No impulse moves anything.
     const MatrixXd d_mass = d.mass(free, free);
@@ -206,9 +210,19 @@ struct ContactTangents::Bodies {
         tangent.response[static_cast<size_t>(2 * free[i] + j)] = d_x(static_cast<Index>(i), j);
       }
     }
+    if (takes_momentum) SetMomentum(d, d_x, tangent);
   }
 
-  // True if the rows of J, which are parallel in the free coordinates, stay so along a direction of J: all minors of
+  // A free coordinate has its row of J^T, one that is held has what the free ones pass on to it.
+  void SetMomentum(const Motion& d, const MatrixXd& d_x, ContactTangent& tangent) const {
+    MatrixXd momentum = d.mass(Eigen::all, free) * response + motion.mass(Eigen::all, free) * d_x;
+    momentum(free, Eigen::all) = d.jt(free, Eigen::all);
+    for (Index i = 0; i < momentum.rows(); ++i) {
+      for (Index j = 0; j < 2; ++j) tangent.momentum[static_cast<size_t>(2 * i + j)] = momentum(i, j);
+    }
+  }
+
+  // True if the rows of J are parallel in the free coordinates and stay so along a direction of J: all minors of
   // J + s dJ vanish for every s, to within rounding. M does not change the rank of J M^-1 J^T.
   bool KeepsRowsParallel(const MatrixXd& d_jt) const {
     const auto vanishes = [](double a, double b, double c, double d) {
@@ -218,7 +232,8 @@ struct ContactTangents::Bodies {
     const MatrixXd& jt = motion.jt;
     for (const Index i : free) {
       for (const Index k : free) {
-        if (!vanishes(jt(i, 0) * d_jt(k, 1), jt(k, 0) * d_jt(i, 1), d_jt(i, 0) * jt(k, 1), d_jt(k, 0) * jt(i, 1)) ||
+        if (!vanishes(jt(i, 0) * jt(k, 1), jt(k, 0) * jt(i, 1), 0.0, 0.0) ||
+            !vanishes(jt(i, 0) * d_jt(k, 1), jt(k, 0) * d_jt(i, 1), d_jt(i, 0) * jt(k, 1), d_jt(k, 0) * jt(i, 1)) ||
             !vanishes(d_jt(i, 0) * d_jt(k, 1), d_jt(k, 0) * d_jt(i, 1), 0.0, 0.0)) {
           return false;
         }
@@ -230,6 +245,7 @@ struct ContactTangents::Bodies {
   Motion motion;
   std::vector<Index> free;
   bool is_rank_one;
+  bool takes_momentum;
   // These belong to the free coordinates and are unset if there are none.
   Eigen::LLT<MatrixXd> cholesky;
   MatrixXd response;
@@ -244,6 +260,7 @@ ContactTangent operator-(ContactTangent tangent) {
   }
   std::for_each(tangent.before.begin(), tangent.before.end(), reverse);
   std::for_each(tangent.response.begin(), tangent.response.end(), reverse);
+  std::for_each(tangent.momentum.begin(), tangent.momentum.end(), reverse);
   return tangent;
 }
 

@@ -26,7 +26,7 @@ struct ContactTangent {
   PlanarDelassus w;
   double u0 = 0.0, v0 = 0.0;
   double kinetic_friction = 0.0, static_friction = 0.0, restitution = 0.0;
-  std::vector<double> before, response;  // PlanarReduction explains both.
+  std::vector<double> before, response, momentum;  // PlanarReduction explains them.
   // The tangent along the opposite direction is the opposite of this.
   bool is_linear = false;
   bool keeps_rank_one = false;        // W has rank one and keeps it along the direction.

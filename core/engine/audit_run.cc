@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <utility>
 
 #include "absl/status/status.h"
@@ -19,18 +20,21 @@ absl::StatusOr<AuditBatchResponse> RunAudits(const AuditBatchRequest& request, s
   if (!rows.ok()) return rows.status();
   AuditBatchResponse response;
   response.reports.resize(rows->size());
-  const auto audit_piece = [&](size_t piece, absl::FunctionRef<bool()> is_stopped) {
-    const size_t end = std::min((piece + 1) * kPiece, rows->size());
-    for (size_t row = piece * kPiece; row < end; ++row) {
-      if (is_stopped()) return false;
-      const absl::StatusOr<AuditReport> report = rows->Audit(row, is_stopped);
-      if (!report.ok()) return false;
-      response.reports[row] = *report;
-    }
-    return true;
+  const auto make_work = [&] {
+    auto own = std::make_unique<audit::InputScene>(request.scene, request.inputs);
+    return [&, own = std::move(own)](size_t piece, absl::FunctionRef<bool()> is_stopped) {
+      const size_t end = std::min((piece + 1) * kPiece, rows->size());
+      for (size_t row = piece * kPiece; row < end; ++row) {
+        if (is_stopped()) return false;
+        const absl::StatusOr<AuditReport> report = rows->Audit(row, *own, is_stopped);
+        if (!report.ok()) return false;
+        response.reports[row] = *report;
+      }
+      return true;
+    };
   };
-  PieceRun run((rows->size() + kPiece - 1) / kPiece, std::move(helpers), [&] { return audit_piece; });
-  if (!run.Run(audit_piece, stopped)) return absl::CancelledError("the audit was stopped by its caller");
+  PieceRun run((rows->size() + kPiece - 1) / kPiece, std::move(helpers), make_work);
+  if (!run.Run(make_work(), stopped)) return absl::CancelledError("the audit was stopped by its caller");
   response.summary = Summarize(response.reports);
   return response;
 }

@@ -95,7 +95,7 @@ class Client:
     def _start(self) -> None:
         self._lock = threading.Lock()
         self._made: _core.Solver | None = None
-        self._limits: Record | None = None
+        self._info: Record | None = None
         _clients.add(self)
 
     def _resolved(self) -> dict[str, Any]:
@@ -123,7 +123,7 @@ class Client:
         """Closes the connection to a server. The next call opens another."""
         with self._lock:
             self._made = None
-            self._limits = None
+            self._info = None
 
     @property
     def _solver(self) -> "_core.Solver":
@@ -293,7 +293,7 @@ class Client:
         return self._solver.audit(scene, arguments)
 
     def audit_batch(self, scene: SceneLike, columns: Mapping[str, Any]) -> Table:
-        """Audits many observed impacts at one contact.
+        """Audits many observed impacts of scenes of one form.
 
         Args:
             scene: gives every number that no column states.
@@ -317,7 +317,7 @@ class Client:
         arrays = {name: _columns_of(name, column) for name, column in given.items()}
         rows = _row_count([column.shape[-1] for column in arrays.values()])
         index = _index_of("columns", columns, given, rows)
-        most = self._most_audit_rows()
+        most = self._most_audit_rows(sum(1 if column.ndim == 1 else len(column) for column in arrays.values()))
         answers = []
         for start in range(0, max(rows, 1), most):  # Without rows one call checks the scene.
             part: dict[str, Any] = {
@@ -673,16 +673,19 @@ class Client:
         """Returns which engine answers, what it can compute, and its limits, as ricochet.v1.InfoResponse has them."""
         return self._solver.info()
 
-    def _most_audit_rows(self) -> int:
-        """Returns how many rows one call of an audit takes."""
-        if self._limits is None:
-            self._limits = self.info().limits
-        limit = self._limits["max_audit_rows"]
-        if limit is None:
-            return _MOST_AUDIT_ROWS
-        if limit < 1:  # Rows in parts of no row would be lost in silence.
+    def _most_audit_rows(self, columns: int) -> int:
+        """Returns how many rows one call of an audit with so many columns takes."""
+        if self._info is None:
+            self._info = self.info()
+        limit = self._info.limits["max_audit_rows"]
+        most = _MOST_AUDIT_ROWS if limit is None else min(int(limit), _MOST_AUDIT_ROWS)
+        if most < 1:  # Rows in parts of no row would be lost in silence.
             raise RicochetError(f"the server states max_audit_rows = {limit}: must be >= 1", code="DATA_LOSS")
-        return min(int(limit), _MOST_AUDIT_ROWS)
+        server = self._info.server_limits
+        if server is None:
+            return most
+        # A quarter of a message is left for the scene.
+        return max(1, min(most, int(server.max_message_bytes) // 4 * 3 // (8 * max(columns, 1))))
 
 
 def _module_client() -> Client:

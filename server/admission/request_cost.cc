@@ -104,7 +104,10 @@ RequestCost CostOf(const AuditRequest& request) { return CostOf(request.scene); 
 RequestCost CostOf(const AuditBatchRequest& request) {
   const size_t rows = Rows(request);
   if (rows > kFewRows) {
-    return Expensive(CostCause::kRows, static_cast<double>(rows) * static_cast<double>(Links(request.scene)));
+    // Beside inputs each row has a mass matrix of its own, which is factored.
+    const int64_t links = Links(request.scene);
+    const auto of_a_row = request.inputs.empty() ? static_cast<double>(links) : Cube(links);
+    return Expensive(CostCause::kRows, static_cast<double>(rows) * of_a_row);
   }
   return CostOf(request.scene);
 }

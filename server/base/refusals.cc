@@ -57,7 +57,7 @@ absl::Status Overloaded(std::chrono::duration<double> wait) {
 
 absl::Status QueueFull(size_t most, std::chrono::duration<double> wait) {
   return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kOverloaded,
-                 absl::StrCat("as many calls wait to be computed as may, ", most, "; try again later"),
+                 absl::StrCat(most, " calls, the most that may, wait to be computed; try again later"),
                  RetryAfter(wait));
 }
 

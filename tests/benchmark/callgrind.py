@@ -24,8 +24,8 @@ def obstacle():
 def run(function, *command):
     """Runs a command and counts inside a function whose name may hold *.
 
-    Returns what the command printed and the instructions of each function with all that it calls. Ends with 77 where the
-    command does.
+    Returns what the command printed and the instructions of each function with all that it calls. Ends with 77 where
+    the command does.
     """
     with tempfile.TemporaryDirectory() as directory:
         out = os.path.join(directory, "out")

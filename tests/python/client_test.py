@@ -242,6 +242,19 @@ class Options(unittest.TestCase):
             self.assertEqual(answer.summary.rows, 25)
             self.assertEqual(len(there.audit_batch(PENDULUM, rates)), 5)
 
+    def test_an_audit_above_the_bytes_of_a_message_is_asked_in_parts(self):
+        server = Ricochetd()
+        self.addCleanup(server.stop)
+        count, rows = 16, 8000  # Columns of 2 MiB; a message has 1.
+        arm = {"mechanism": {"mass_matrix": np.eye(count).ravel(), "jacobian": np.eye(2, count).ravel(),
+                             "rates": np.zeros(count)}, "friction": {"kinetic_coefficient": 0.5}}
+        states = {f"mechanism.rates[{i}]": np.full(rows, -1.0 if i == 1 else 0.25 * i) for i in range(count)}
+        states["rates_after"] = [np.full(rows, 0.5 if i == 1 else 0.25 * i) for i in range(count)]
+        with ricochet.Client(server.address) as there:
+            table = there.audit_batch(arm, states)
+        self.assertEqual((table.summary.rows, table.summary.admissible), (rows, rows))
+        np.testing.assert_array_equal(table["coefficients.newton"], 0.5)
+
 
 def openssl(*arguments):
     subprocess.run(["openssl", *arguments], check=True, capture_output=True)

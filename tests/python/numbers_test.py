@@ -219,7 +219,7 @@ class BoundsAndAudits(unittest.TestCase):
     def test_a_limit_of_no_row_is_refused(self):
         client = ricochet.Client()
         for limit in (0, -1):
-            client._limits = {"max_audit_rows": limit}  # A server that is wrong would state it so.
+            client._info = ricochet.Record({"limits": {"max_audit_rows": limit}, "server_limits": None})  # It is wrong.
             with self.assertRaisesRegex(ricochet.RicochetError, f"max_audit_rows = {limit}: must be >= 1"):
                 client.audit_batch(PENDULUM, {"rates_after": [0.1, 0.2]})
 

@@ -382,7 +382,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"Twice",
                 {.flags = {"--drain-grace", "1", "--drain-grace", "2"}},
                 {"--drain-grace: must be given once, with"}},
-        BadCase{"NoValue", {.flags = {"--drain-grace"}}, {"--drain-grace: must be given once, with one value"}},
+        BadCase{"NoValue", {.flags = {"--drain-grace"}}, {"--drain-grace: must be given once, with a value"}},
         BadCase{"Section", {.file = "[limits]\ndrain-grace = 1\n"}, {"--config: [limits]: the file must have no sec"}},
         BadCase{"NoSuchFile", {.flags = {"--config", "/nonexistent.toml"}}, {"/nonexistent.toml"}},
         BadCase{"NoSuchFileByEnvironment",

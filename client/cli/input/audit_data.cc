@@ -13,13 +13,11 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/strip.h"
 #include "client/cli/input/short_name.h"
-#include "core/audit/audit_parts.h"
 #include "core/base/decimal.h"
 #include "core/base/nearest.h"
 #include "core/scene/field.h"
 #include "core/scene/system_velocities.h"
 #include "ricochet/audit_columns.h"
-#include "ricochet/error.h"
 
 namespace ricochet::cli {
 namespace {
@@ -72,13 +70,17 @@ absl::Status AuditTable::SetPlaces(const std::string& name) {
     absl::StatusOr<std::string> full = FullName(cell, known, absl::StrCat(name, " has the column"));
     if (!full.ok() || !PlaceOf(*full).has_value()) {
       absl::StatusOr<std::string> field = FullName(cell, fields_, absl::StrCat(name, " has the column"));
-      if (full.ok() || field.ok()) full = std::move(field);
+      const bool is_field = field.ok() && PlaceOf(*field).has_value();
+      if (is_field || (full.ok() && !field.ok())) full = std::move(field);
     }
     if (!full.ok()) return full.status();
     const std::optional<Place> place = PlaceOf(*full);
     if (!place.has_value()) return UnknownColumn(cell, name, known);
     if (std::count(places_.begin(), places_.end(), place) > 0) {
       return absl::InvalidArgumentError(absl::StrCat(name, " has the column ", cell, " twice"));
+    }
+    if (!place->field.empty()) {
+      reader_.Define(i, cell, SpellingOf(*full) == Spelling::kAngle ? CellKind::kAngle : CellKind::kNumber);
     }
     places_.push_back(place);
   }
@@ -136,7 +138,7 @@ absl::StatusOr<AuditRows> AuditTable::Next(size_t most) {
   return rows;
 }
 
-std::string WhyInvalid(const Scene& scene, const AuditRows& rows, size_t row) {
+std::string WhyInvalid(const AuditRows& rows, size_t row) {
   const AuditColumns& columns = rows.columns;
   if (!rows.bad_cells[row].empty()) return rows.bad_cells[row];
   for (const NamedAuditColumn& known : kAuditColumns) {
@@ -151,14 +153,7 @@ std::string WhyInvalid(const Scene& scene, const AuditRows& rows, size_t row) {
         WhyWrong(rows.velocities[i], columns.rates_after[i], row, std::numeric_limits<double>::lowest());
     if (!reason.empty()) return reason;
   }
-  if (!rows.inputs.empty()) {
-    Scene of_row = scene;
-    std::optional<SceneContact> contact;
-    const std::vector<Violation> violations = audit::CheckRow(rows.inputs, row, of_row, contact);
-    if (!violations.empty()) return absl::StrCat(violations[0].field, " ", violations[0].description);
-  }
-  return "the contact cannot have this velocity before the impact, a number exceeds the largest double, or the path "
-         "of friction takes too many steps";
+  return "";
 }
 
 }  // namespace ricochet::cli

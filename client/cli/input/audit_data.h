@@ -42,6 +42,7 @@ class AuditTable {
   bool has_uncertainty() const;
   // Returns the next rows, at most `most`; none at the end. Errors: those of CsvReader::Next.
   absl::StatusOr<AuditRows> Next(size_t most);
+  size_t columns() const { return places_.size(); }
   // The bytes read so far.
   int64_t bytes() const { return reader_.bytes(); }
 
@@ -66,8 +67,8 @@ class AuditTable {
   Places places_;
 };
 
-// Returns why an audit of the scene calls a row of `rows` invalid: the cell, or the rule that it breaks.
-std::string WhyInvalid(const Scene& scene, const AuditRows& rows, size_t row);
+// Returns which cell makes a row of `rows` invalid, and why; empty if none does by itself.
+std::string WhyInvalid(const AuditRows& rows, size_t row);
 
 }  // namespace ricochet::cli
 

@@ -139,7 +139,7 @@ struct AuditBatchRequest {
 };
 
 struct AuditBatchResponse {
-  std::vector<AuditReport> reports;  // One for each row; kInvalid and all else 0 if the row breaks a rule or overflows.
+  std::vector<AuditReport> reports;  // One a row; kInvalid, all else 0, if it breaks a rule or cannot be computed.
   AuditSummary summary;
   EngineInfo engine;
   friend bool operator==(const AuditBatchResponse&, const AuditBatchResponse&) = default;
@@ -172,7 +172,7 @@ class Solver {
     return DoAudit(request, options);
   }
 
-  // Audits many observed impacts at one contact. A bad row does not spoil the others.
+  // Audits many observed impacts of scenes of one form. A bad row does not spoil the others.
   absl::StatusOr<AuditBatchResponse> AuditBatch(const AuditBatchRequest& request,
                                                 const CallOptions& options = {}) const {
     return DoAuditBatch(request, options);

@@ -190,6 +190,7 @@ EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator,
   constexpr double kFinest = 5e-16;
   constexpr double kMiddle = 1e-9;
   constexpr double kCoarsest = 1e-6;
+  constexpr double kCoarse = 1e-7, kMuchFiner = 0.01;
   EstimatedPath result;
   bool is_second = false;
   double next = std::clamp(kFirst * tolerance, kFinest, kCoarsest);
@@ -206,7 +207,8 @@ EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator,
       if (is_second || stop.WasStopped() || (!used_up && next <= kMiddle)) return result;
       // A force far above that of the impact leaves it to a small rest of the energy whether the bodies part: that
       // needs a fine path. A path of many sticks and slips uses up its budget only if it is fine.
-      next = used_up && next > kMiddle ? kFinest : kMiddle;
+      // Steps that err by more than a contact moves may lose its end.
+      next = !used_up ? kMuchFiner * std::min(next, kCoarse) : next > kMiddle ? kFinest : kMiddle;
       is_second = true;
       continue;
     }

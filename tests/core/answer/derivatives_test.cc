@@ -116,8 +116,13 @@ class ExactScene {
                                        {"work.friction_dissipation_j", -tangential_work},
                                        {"energy_change_j", x.energy_change}};
     const std::vector<std::string> paths = AllDerivativePaths(scene_).of;
+    const size_t first = out.size();
+    for (size_t i = 0; i < rates_.size(); ++i) out[paths[first + i]] = rates_[i] + x_[i][0] * f + x_[i][1] * tau;
+    if (!std::holds_alternative<Mechanism>(scene_.system)) return out;
     for (size_t i = 0; i < rates_.size(); ++i) {
-      out[paths[paths.size() - rates_.size() + i]] = rates_[i] + x_[i][0] * f + x_[i][1] * tau;
+      Ball momentum = Exact(0.0);
+      for (size_t k = 0; k < rates_.size(); ++k) momentum = momentum + m_[i][k] * (x_[k][0] * f + x_[k][1] * tau);
+      out["momentum_change[" + std::to_string(i) + "]"] = momentum;
     }
     return out;
   }
@@ -732,10 +737,10 @@ TEST(DerivativesTest, RequestNamesWhatHasNone) {
     EXPECT_EQ(violations.size(), 1);
     return violations.empty() ? std::string() : violations[0].field + " " + violations[0].description;
   };
-  EXPECT_EQ(only(Refused(With(Contact()), {.of = {"coefficients.newtn"}, .by = paths.by})),
-            "derivatives.of[0] = \"coefficients.newtn\": must be a coefficient, an impulse, a contact velocity, a "
-            "velocity of "
-            "the system, or a work other than that of a spring; did you mean coefficients.newton?");
+  EXPECT_EQ(
+      only(Refused(With(Contact()), {.of = {"coefficients.newtn"}, .by = paths.by})),
+      "derivatives.of[0] = \"coefficients.newtn\": must be a coefficient, an impulse, a contact velocity, a "
+      "velocity or momentum of the system, or a work other than that of a spring; did you mean coefficients.newton?");
   EXPECT_EQ(only(Refused(With(Contact()), {.of = paths.of, .by = {"pendulum.a_m"}})).substr(0, 38),
             "derivatives.by[0] = \"pendulum.a_m\": mu");
   EXPECT_EQ(only(Refused(With(Contact()), {.of = paths.of, .by = {}})), "derivatives.by is empty: must name a number");

@@ -30,6 +30,7 @@ namespace {
 
 using testing::Contains;
 using testing::ElementsAre;
+using testing::Field;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::IsSupersetOf;
@@ -305,6 +306,27 @@ std::vector<Note> NotesOf(const Scene& scene, const DemandFields& demand = {}) {
 }
 
 // Without friction the energetic coefficient is 1; with it, 1.0307 by arbitrary precision.
+// No verdict of a coarse plan that the whole impact refutes lacks the note.
+TEST(VerdictNoteTest, StandsWhereverAnAdmissibleOutcomeIsNone) {
+  RandomScenes random(5);
+  const auto solve = [](const Scene& scene, double tolerance) {
+    return LocalSolver().Solve({.scene = scene, .demand = {.relative_tolerance = tolerance}});
+  };
+  int turned = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double tt = random.Power(-0.5, 0.5), nn = random.Power(-0.5, 0.5);
+    const double tn = random.Uniform(-0.9, 0.9) * std::sqrt(tt * nn);
+    const Scene scene = {.system = PlanarContact{tt, tn, nn, random.Uniform(-2.0, 2.0), -random.Power(-1.0, 0.5)},
+                         .friction = {.kinetic_coefficient = random.Power(-3.0, -1.0)},
+                         .restitution = NewtonCoefficient{random.Uniform(0.8, 1.05)}};
+    const auto whole = solve(scene, 0.0), coarse = solve(scene, 0.1);
+    if (whole->outcome.admissible || !coarse->outcome.admissible) continue;
+    ++turned;
+    EXPECT_THAT(coarse->outcome.notes, Contains(Field(&Note::path, "admissible"))) << i;
+  }
+  EXPECT_GT(turned, 20);
+}
+
 TEST(NotesTest, AVerdictThatWhatIsLeftOutMayTurnSaysSo) {
   const Scene scene = {
       .system = PlanarContact{0.7864519654934002, 0.939606137701005, 12.554953596343825, -0.18993242225129414,
