@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "client/cli/input/audit_data.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/io/csv_row.h"
@@ -118,6 +119,17 @@ std::string WhyInvalidIn(const Scene& scene, const AuditRows& rows, size_t row) 
          "takes too many steps";
 }
 
+// Names the column of the table where an error has the place of an input.
+absl::Status ByColumns(const AuditRows& rows, const absl::Status& status) {
+  std::string message(status.message());
+  for (size_t i = rows.inputs.size(); i > 0; --i) {
+    const std::string place = absl::StrCat("inputs[", i - 1, "]"),
+                      column = absl::StrCat("column ", rows.inputs[i - 1].path);
+    message = absl::StrReplaceAll(message, {{place + ".path", column}, {place + ".values", column}, {place, column}});
+  }
+  return {status.code(), message};
+}
+
 // Audits one part of the table after the other.
 class Auditor {
  public:
@@ -127,7 +139,7 @@ class Auditor {
   absl::Status Audit(const AuditRows& rows) {
     absl::StatusOr<AuditBatchResponse> response =
         solver_.AuditBatch({.scene = scene_, .columns = rows.columns, .inputs = rows.inputs});
-    if (!response.ok()) return response.status();
+    if (!response.ok()) return ByColumns(rows, response.status());
     if (response->reports.size() != rows.lines.size()) {
       return absl::DataLossError(
           absl::StrCat("the server answered ", response->reports.size(), " rows of ", rows.lines.size()));

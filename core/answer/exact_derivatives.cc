@@ -203,7 +203,19 @@ OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
     return {.why_none = "the number jumps or changes infinitely fast"};
   }
   if (Jumps(side, place)) return {.why_none = "the number jumps"};
+  if (place >= kOutputs && HidesInItsImpulse(side, place)) return {.why_none = "the impulse grows without bound"};
   return {.rate = RateOf(side, place) + 0.0};
+}
+
+// Rounding alone is left where impulses without bound cancel.
+bool ExactDerivatives::HidesInItsImpulse(const Side& side, size_t place) const {
+  constexpr double kMost = 0x1p10;
+  const double* const x = LinearNumberAt<2>(place - kOutputs, ReductionOf(side)).of_impulse;
+  const std::array<size_t, 2> impulses = {PlaceOf(PlanarOutput::kTangentialImpulse),
+                                          PlaceOf(PlanarOutput::kNormalImpulse)};
+  const auto& values = impacts_[side.impact].tangent.value;
+  const double size = std::max(std::fabs(ValueAt(place, ReductionOf(side), values)), SizeOf(place));
+  return std::fabs(x[0] * values[impulses[0]]) > kMost * size || std::fabs(x[1] * values[impulses[1]]) > kMost * size;
 }
 
 bool ExactDerivatives::Jumps(const Side& side, size_t place) const {

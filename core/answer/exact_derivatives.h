@@ -75,6 +75,8 @@ class ExactDerivatives {
   double LargestRate(const Number& number, size_t place) const;
   // True if the number at `place` is another beside the scene than in it.
   bool Jumps(const Side& side, size_t place) const;
+  // True if the linear number at `place` is a small rest of what the impulses make of it.
+  bool HidesInItsImpulse(const Side& side, size_t place) const;
   double LargestRate(const Number& number) const;
   static bool IsMoved(const Side& side);
   OneSided LimitOf(const Side& side, size_t place) const;

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
 #include "core/audit/coulomb_path.h"
+#include "core/base/decimal.h"
 #include "core/contact/delassus.h"
 #include "core/models/restitution_law.h"
 #include "core/numerics/elementary.h"
@@ -437,10 +439,11 @@ PathPoint PendulumAt(pendulum::Problem problem, double omega) {
   return compressing ? PendulumCompression(problem, impact, omega) : EndOf(impact);
 }
 
-absl::Status PathTooLong() {
+absl::Status PathTooLong(double friction) {
   return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kNotEnded,
-                   "the impact under this friction, with which the observation is compared, takes more steps than an "
-                   "audit has");
+                   absl::StrCat("the impact under friction of ", ShortestDecimal(friction),
+                                ", with which the observation is compared, takes more steps than an audit has; state "
+                                "a smaller coefficient"));
 }
 
 // NearestPoint searches the point of a spatial path nearest to v+, for tau in [0, end]: golden section around each step
@@ -490,7 +493,7 @@ class NearestPoint {
   absl::Status CheckProgress() const {
     constexpr int64_t kMostSteps = 200'000;
     if (stopped_()) return absl::CancelledError("the audit was stopped by its caller");
-    return has_lost_path_ || steps_ > kMostSteps ? PathTooLong() : absl::OkStatus();
+    return has_lost_path_ || steps_ > kMostSteps ? PathTooLong(problem_.mu) : absl::OkStatus();
   }
 
   double DistanceAt(double tau) {
@@ -549,12 +552,12 @@ absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& proble
     const double farthest = std::max(contact.after[2], 0.0) + search.DistanceTo(start);
     const PathPoint likely = PathWhereNormalIs(problem, std::max(contact.after[2], 0.0));
     const PathPoint end = PathWhereNormalIs(problem, farthest);
-    if (likely.regime == Regime::kUnspecified || end.regime == Regime::kUnspecified) return PathTooLong();
+    if (likely.regime == Regime::kUnspecified || end.regime == Regime::kUnspecified) return PathTooLong(problem.mu);
     const absl::StatusOr<double> tau = search.Find(end.tau, likely.tau);
     if (!tau.ok()) return tau.status();
     point = PathAt(problem, *tau);
     moved_back = MovedBack(problem, point, std::sqrt(3.0) * error);
-    if (moved_back.regime == Regime::kUnspecified) return PathTooLong();
+    if (moved_back.regime == Regime::kUnspecified) return PathTooLong(problem.mu);
   }
   AuditReport report = AuditPoint(point, moved_back, contact, error);
   const double distance = search.DistanceTo(point);
@@ -576,11 +579,11 @@ absl::StatusOr<AuditReport> Audit(const spatial::Problem& in, const Observation&
                                   absl::FunctionRef<bool()> stopped) {
   const Contact<3> contact = MakeContact(in, observation);
   PathPoint start = PathAt(in, 0.0);
-  if (start.regime == Regime::kUnspecified) return PathTooLong();
+  if (start.regime == Regime::kUnspecified) return PathTooLong(in.mu);
   start.w_rank = in.Delassus().Rank();
   absl::StatusOr<AuditReport> report =
       start.w_rank == 3 ? AuditFullRank(in, contact, start) : AuditSpatialDeficient(in, contact, start, stopped);
-  if (report.ok() && report->regime == Regime::kUnspecified) return PathTooLong();
+  if (report.ok() && report->regime == Regime::kUnspecified) return PathTooLong(in.mu);
   return report;
 }
 
@@ -624,7 +627,10 @@ const char* OverflowIn(const AuditReport& report) {
   for (const auto& [path, value] : numbers) {
     if (!std::isfinite(value)) return path;
   }
-  return nullptr;
+  const bool are_finite = std::all_of(report.limits.begin(), report.limits.end(), [](const LimitCheck& check) {
+    return std::isfinite(check.value) && std::isfinite(check.limit) && std::isfinite(check.excess);
+  });
+  return are_finite ? nullptr : "report.limits";
 }
 
 }  // namespace ricochet::audit

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "absl/status/statusor.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/audit/audit_parts.h"
 #include "core/base/invariant.h"
@@ -22,6 +23,11 @@ std::vector<Violation> CheckInputs(const Scene& scene, const std::vector<InputCo
   const DrivenFields fields(
       paths, [](size_t i) { return absl::StrCat("inputs[", i, "]"); }, ".path", driven);
   if (!fields.violations().empty()) return fields.violations();
+  for (size_t i = 0; i < paths.size(); ++i) {
+    if (!absl::StartsWith(paths[i], "restitution.") && !absl::StartsWith(paths[i], "impact_law.")) continue;
+    return {MakeViolation(absl::StrCat("inputs[", i, "].path"), Found(paths[i]),
+                          "be another number, an audit uses neither restitution nor impact law")};
+  }
   std::optional<SceneContact> unused;
   std::vector<Violation> violations =
       Validate(driven, RestitutionIs::kOptional, unused,

@@ -159,7 +159,9 @@ double CoefficientOf(const Restitution& restitution) {
 
 void SetCoefficients(const Scene& scene, const SceneContact& contact, const Scene& d, ContactTangent& tangent) {
   const double speed = ApproachSpeed(contact.reduction);
-  const double d_speed = speed > 0.0 ? -tangent.v0 : std::max(0.0, -tangent.v0);
+  // A contact that separates has the speed 0 and keeps it.
+  const bool separates = std::get<PlanarReduction>(contact.reduction).v0 > 0.0;
+  const double d_speed = speed > 0.0 ? -tangent.v0 : separates ? 0.0 : std::max(0.0, -tangent.v0);
   const double factor = FactorAt(scene.friction.by_speed, speed);
   const double d_factor = FactorTangent(scene.friction.by_speed, d.friction.by_speed, speed, d_speed);
   const Friction& friction = scene.friction;

@@ -331,7 +331,8 @@ class Client:
                 raise RicochetError(f"the server answers {len(answer.reports)} rows of an audit", code="DATA_LOSS")
             answers.append(answer)
         flat = [_flat(report) for answer in answers for report in answer.reports]
-        return _audit_table(flat, [answer.summary for answer in answers], index)
+        stated = {name: np.broadcast_to(column, rows).copy() for name, column in arrays.items() if name not in observed}
+        return _audit_table(flat, [answer.summary for answer in answers], stated, index)
 
     def fit(
         self, scene: SceneLike, table: Mapping[str, ArrayLike], unknown: Names | Mapping[str, float | None], *,
@@ -822,6 +823,14 @@ def _equally_long(arrays: dict[str, NDArray[np.float64]], known: Iterable[str]) 
 
 
 def _columns_of(name: str, value: Any) -> NDArray[Any]:
+    if name == "rates_after" and isinstance(value, (list, tuple)) and any(np.ndim(rates) for rates in value):
+        columns = {f"rates_after[{i}]": np.atleast_1d(values.column(rates, f"rates_after[{i}]"))
+                   for i, rates in enumerate(value)}
+        rows = _row_count([len(column) for column in columns.values()])
+        for path, column in columns.items():
+            if len(column) not in (1, rows):
+                values.refuse(path, f"has {len(column)} values: must have 1 or {rows}")
+        return np.stack([np.broadcast_to(column, rows) for column in columns.values()])
     array = values.column(value, name)
     return np.atleast_2d(array) if name == "rates_after" else np.atleast_1d(array)
 
@@ -844,7 +853,9 @@ def _flat(record: Record, path: str = "") -> dict[str, Any]:
     return flat
 
 
-def _audit_table(rows: list[dict[str, Any]], summaries: list[Record], index: Any) -> Table:
+def _audit_table(
+    rows: list[dict[str, Any]], summaries: list[Record], stated: dict[str, NDArray[Any]], index: Any
+) -> Table:
     # Lists of invalid rows are empty, so that the names are those of the fullest row.
     fullest: dict[str, Any] = max(rows, key=len, default={})
     codes: dict[str, Codes] = {}
@@ -866,4 +877,4 @@ def _audit_table(rows: list[dict[str, Any]], summaries: list[Record], index: Any
         parts=summaries,
     )
     regimes = {"regime": Codes(np.empty(0, np.uint8), _REGIMES)}
-    return Table(columns, codes or regimes, summary=summary, index=index)
+    return Table(columns, codes or regimes, stated, summary=summary, index=index)

@@ -246,6 +246,14 @@ class BoundsAndAudits(unittest.TestCase):
         for name in ("omega", "pendulum.omega_minus_rad_s"):
             table = ricochet.audit_batch(PENDULUM, {name: omega, "rates_after": [[0.5]]})
             np.testing.assert_allclose(table["coefficients.newton"], -0.5 / omega, rtol=1e-14)
+            self.assertEqual(list(table.to_pandas()["pendulum.omega_minus_rad_s"]), list(omega))
+        contact = {"planar_contact": {"w_tt_per_kg": 1, "w_nn_per_kg": 1, "normal_m_s": -1}}
+        body = {"planar_body": {"mass_kg": 1, "inertia_com_kg_m2": 1, "velocity_n_m_s": -1}}
+        table = ricochet.audit_batch(body, {"rates_after": [0.0, [0.5, 0.25], 0.0]})
+        np.testing.assert_allclose(table["coefficients.newton"], [0.5, 0.25], rtol=1e-14)
+        table = ricochet.audit_batch(contact, {"mu": [0.5, 0.5], "normal_m_s": -2.0, "normal_after_m_s": 0.5,
+                                               "tangential_after_m_s": 0.0})
+        np.testing.assert_allclose(table["coefficients.newton"], 0.25, rtol=1e-14)
         with self.assertRaisesRegex(ricochet.InvalidRequest, "inputs.0..path = .pendulum.omgea"):
             ricochet.audit_batch(PENDULUM, {"pendulum.omgea": omega, "rates_after": [[0.5]]})
 

@@ -22,10 +22,13 @@
 namespace ricochet::cli {
 namespace {
 
-absl::Status UnknownColumn(const std::string& cell, const std::string& name, const std::vector<std::string>& known) {
+absl::Status UnknownColumn(const std::string& cell, const std::string& name, const std::vector<std::string>& known,
+                           const std::vector<std::string>& fields) {
+  const std::string near = DidYouMean(cell, known);
   return absl::InvalidArgumentError(absl::StrCat(name, " has the column \"", absl::CEscape(cell), "\": must be one of ",
                                                  absl::StrJoin(known, ", "), ", or a field of the scene",
-                                                 DidYouMean(cell, known), "; --skip-column leaves a column out"));
+                                                 near.empty() ? DidYouMean(cell, fields) : near,
+                                                 "; --skip-column leaves a column out"));
 }
 
 // Returns why a value is not finite or below `least`; empty if neither is so.
@@ -59,6 +62,26 @@ std::optional<AuditTable::Place> AuditTable::PlaceOf(const std::string& cell) co
   return Place{.values = nullptr, .velocity = {}, .field = cell};
 }
 
+// A short name must not mean both an observed number and a field of the scene. A name that means none is returned.
+absl::StatusOr<std::string> AuditTable::FullColumn(const std::string& cell, const std::string& name) const {
+  const std::string what = absl::StrCat(name, " has the column");
+  const absl::StatusOr<std::string> observed = FullName(cell, KnownNames(), what);
+  if (PlaceOf(cell).has_value()) return cell;
+  std::vector<std::string> fields;
+  for (const std::string& field : fields_) {
+    // The contact's velocity that an audit compares is not that of the surface.
+    if (!PlaceOf(field.substr(field.rfind('.') + 1)).has_value()) fields.push_back(field);
+  }
+  absl::StatusOr<std::string> field = FullName(cell, fields, what);
+  const bool is_observed = observed.ok() && PlaceOf(*observed).has_value();
+  const bool is_field = field.ok() && PlaceOf(*field).has_value();
+  if (is_observed && is_field) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(what, " ", cell, ": must name one of\n  ", *observed, "\n  ", *field));
+  }
+  return is_field || (observed.ok() && !field.ok()) ? field : observed;
+}
+
 absl::Status AuditTable::SetPlaces(const std::string& name) {
   const std::vector<std::string> known = KnownNames();
   for (size_t i = 0; i < reader_.header().size(); ++i) {
@@ -67,15 +90,10 @@ absl::Status AuditTable::SetPlaces(const std::string& name) {
       places_.emplace_back();
       continue;
     }
-    absl::StatusOr<std::string> full = FullName(cell, known, absl::StrCat(name, " has the column"));
-    if (!full.ok() || !PlaceOf(*full).has_value()) {
-      absl::StatusOr<std::string> field = FullName(cell, fields_, absl::StrCat(name, " has the column"));
-      const bool is_field = field.ok() && PlaceOf(*field).has_value();
-      if (is_field || (full.ok() && !field.ok())) full = std::move(field);
-    }
+    const absl::StatusOr<std::string> full = FullColumn(cell, name);
     if (!full.ok()) return full.status();
     const std::optional<Place> place = PlaceOf(*full);
-    if (!place.has_value()) return UnknownColumn(cell, name, known);
+    if (!place.has_value()) return UnknownColumn(cell, name, known, fields_);
     if (std::count(places_.begin(), places_.end(), place) > 0) {
       return absl::InvalidArgumentError(absl::StrCat(name, " has the column ", cell, " twice"));
     }

@@ -59,6 +59,7 @@ class AuditTable {
   AuditTable(CsvReader reader, const Scene& scene);
   std::vector<std::string> KnownNames() const;
   std::optional<Place> PlaceOf(const std::string& cell) const;
+  absl::StatusOr<std::string> FullColumn(const std::string& cell, const std::string& name) const;
   absl::Status SetPlaces(const std::string& name);
 
   CsvReader reader_;

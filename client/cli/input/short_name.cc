@@ -23,13 +23,9 @@ namespace {
 
 // Letters and flags whose field is called otherwise.
 constexpr std::pair<const char*, const char*> kLetters[] = {
-    {"mu", "friction.kinetic_coefficient"},
-    {"mu_static", "friction.static_coefficient"},
-    {"omega", "pendulum.omega_minus_rad_s"},
-    {"mu-static", "friction.static_coefficient"},
-    {"inertia", "pendulum.inertia_kg_m2"},
-    {"phi", "pendulum.phi_rad"},
-    {"mu", "friction"},
+    {"mu", "friction.kinetic_coefficient"},  {"mu_static", "friction.static_coefficient"},
+    {"omega", "pendulum.omega_minus_rad_s"}, {"mu-static", "friction.static_coefficient"},
+    {"inertia", "pendulum.inertia_kg_m2"},   {"phi", "pendulum.phi_rad"},
 };
 
 // True if `path` is `name`, or ends in it after a dot. Paths under "errors." and "free_end." end in the names of other

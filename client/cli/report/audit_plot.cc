@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -54,16 +55,19 @@ std::vector<Curve> CurvesOf(const std::vector<AuditReport>& reports, Place place
   return curves;
 }
 
-// The cone of the largest friction of a row; others are narrower.
+// The cone of the largest friction of a row, which the legend says where others are narrower.
 void AddCone(const std::vector<AuditReport>& reports, Panel& panel) {
-  double friction = 0.0;
+  double friction = 0.0, least_friction = std::numeric_limits<double>::infinity();
   double reach = 0.0;
   for (const AuditReport& report : reports) {
     if (report.regime == Regime::kInvalid || !(report.normal_impulse > 0.0)) continue;
-    friction = std::max(friction, report[AuditLimit::kCone].limit / report.normal_impulse);
+    const double of_row = report[AuditLimit::kCone].limit / report.normal_impulse;
+    friction = std::max(friction, of_row);
+    least_friction = std::min(least_friction, of_row);
     reach = std::max(reach, report.normal_impulse);
   }
-  panel.curves.push_back({.title = "friction cone",
+  const bool is_of_all = friction <= least_friction * (1.0 + 1e-9);
+  panel.curves.push_back({.title = is_of_all ? "friction cone" : "the widest row's friction cone",
                           .points = {{reach, -friction * reach}, {0.0, 0.0}, {reach, friction * reach}},
                           .style = "with lines linewidth 1.5 dashtype 2 linecolor rgb '#606060'"});
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/models/finite_duration/history.h"
 #include "core/models/finite_duration/integrator.h"
@@ -182,38 +184,51 @@ struct EstimatedPath {
   }
 };
 
-// Integrates until the estimated error is within `tolerance`, or rounding forbids any better. A path without an end is
-// followed once more: finely if it was coarse, or coarsely if it was fine and used up its budget.
+constexpr double kFinest = 5e-16;
+constexpr double kMiddle = 1e-9;
+
+// Returns the tolerance at which a path that has no end at those in `tried` is followed again; nothing if no other may
+// find one.
+std::optional<double> NextTry(PathEnd how, const std::vector<double>& tried) {
+  constexpr double kCoarse = 1e-7, kMuchFiner = 0.01;
+  const double last = tried.back();
+  if (how != PathEnd::kBudgetUsedUp) {
+    // Steps that err by more than a contact moves may lose its end.
+    if (tried.size() > 1 || last <= kMiddle) return std::nullopt;
+    return kMuchFiner * std::min(last, kCoarse);
+  }
+  // A path of many sticks and slips uses up its budget only if it is fine. A force far above that of the impact leaves
+  // it to a small rest of the energy whether the bodies part: that needs a fine path.
+  if (tried.size() == 1 && last < kMiddle) return kMiddle;
+  return tried.front() == kFinest || last == kFinest ? std::nullopt : std::optional(kFinest);
+}
+
+// Integrates until the estimated error is within `tolerance`, or rounding forbids any better.
 EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator, double tolerance, StopCheck& stop) {
   constexpr double kFirst = 0.1;
   constexpr double kTighter = 0.1;
-  constexpr double kFinest = 5e-16;
-  constexpr double kMiddle = 1e-9;
   constexpr double kCoarsest = 1e-6;
-  constexpr double kCoarse = 1e-7, kMuchFiner = 0.01;
   EstimatedPath result;
-  bool is_second = false;
+  std::vector<double> without_end;
   double next = std::clamp(kFirst * tolerance, kFinest, kCoarsest);
   for (;;) {
     Path path = FollowPath(contact, integrator, next, stop, nullptr);
     result.Count(path);
-    // A finer path that finds no end says less than the one before.
-    if (!path.HasEnd() && result.path.HasEnd()) return result;
+    const bool had_end = result.path.HasEnd();
+    // A finer path that finds no end says less than the one before, if it is known that that has one.
+    if (!path.HasEnd() && had_end && std::isfinite(result.error)) return result;
     result.path = std::move(path);
     result.tolerance = next;
     if (!result.path.HasEnd()) {
       result.error = std::numeric_limits<double>::infinity();
-      const bool used_up = result.path.how == PathEnd::kBudgetUsedUp;
-      if (is_second || stop.WasStopped() || (!used_up && next <= kMiddle)) return result;
-      // A force far above that of the impact leaves it to a small rest of the energy whether the bodies part: that
-      // needs a fine path. A path of many sticks and slips uses up its budget only if it is fine.
-      // Steps that err by more than a contact moves may lose its end.
-      next = !used_up ? kMuchFiner * std::min(next, kCoarse) : next > kMiddle ? kFinest : kMiddle;
-      is_second = true;
+      without_end.push_back(next);
+      const std::optional<double> again = NextTry(result.path.how, without_end);
+      if (had_end || !again.has_value() || stop.WasStopped()) return result;
+      next = *again;
       continue;
     }
     result.error = ErrorOf(contact, result.path);
-    if (result.error <= tolerance || is_second || next == kFinest) return result;
+    if (result.error <= tolerance || !without_end.empty() || next == kFinest) return result;
     next = std::max(kFinest, next * std::min(0.5 * tolerance / result.error, kTighter));
   }
 }

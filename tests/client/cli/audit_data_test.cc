@@ -64,6 +64,29 @@ TEST_F(CliAuditData, ARowMayStateTheVelocitiesOfTheBodyBefore) {
   EXPECT_THAT(text.out, HasSubstr("  row 2 (line 4): invalid: velocity_n_m_s is missing\n"));
 }
 
+TEST_F(CliAuditData, NamesOfColumnsMeanOneNumber) {
+  const auto in_space = [this](const std::string& table) {
+    return Run({"audit", "--scene", TestDataPath("scenes/spatial_body.json"), "--data", "-"}, table);
+  };
+  EXPECT_THAT(in_space("linear_m_s[0],normal_after_m_s\n1,1\n").err,
+              HasSubstr("must name one of\n  bodies_after[0].linear_m_s[0]\n  spatial_body.linear_m_s[0]"));
+  EXPECT_THAT(Audit("linkage.links[0].masss_kg,normal_after_m_s\n1,1\n").err,
+              HasSubstr("did you mean linkage.links[0].mass_kg?"));
+  EXPECT_THAT(Audit("normal,tangential_after_m_s,normal_after_m_s\n-1,0,1\n").err, HasSubstr("column \"normal\""));
+  EXPECT_THAT(Audit("links[0].theta_rad,tangential_after_m_s,normal_after_m_s\n30deg,0,1\n").out, HasSubstr("1 row\n"));
+  EXPECT_THAT(Audit("restitution.energetic,tangential_after_m_s,normal_after_m_s\n1,0,1\n").err,
+              HasSubstr("column restitution.energetic = \"restitution.energetic\": must be another number"));
+}
+
+// "mu" is the kinetic coefficient of the scene here as everywhere, beside which the static one stays.
+TEST_F(CliAuditData, MuIsTheKineticCoefficient) {
+  const CliResult csv = Run({"audit", "--a", "0.3", "--b", "1", "--mu-static", "0.5", "--data", "-", "--format", "csv"},
+                            "mu,rates_after_rad_s[0]\n0.1,0.5\n");
+  const CliResult one = Run({"audit", "--a", "0.3", "--b", "1", "--mu", "0.1", "--mu-static", "0.5", "--observed-rate",
+                             "0.5", "--format", "csv"});
+  EXPECT_THAT(csv.out, HasSubstr(one.out.substr(one.out.find('\n') + 1, 40)));
+}
+
 TEST_F(CliAuditData, AnInputThatBreaksARuleOfTheSceneIsNamed) {
   EXPECT_THAT(Audit("linkage.links[0].mass_kg,tangential_after_m_s,normal_after_m_s\n-1,0,1\n").out,
               HasSubstr("  row 0 (line 2): invalid: linkage.links[0].mass_kg = -1: must be > 0\n"));

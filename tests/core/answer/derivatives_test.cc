@@ -684,6 +684,26 @@ TEST(DerivativesTest, WOfRankOneHasNoDerivativeByItsEntries) {
             DerivativeKind::kTwoSided);
 }
 
+// mu is at the threshold of a jam, Wnn = mu |Wtn|, where the impulse has no bound on one side.
+TEST(DerivativesTest, VelocityBehindAnImpulseWithoutBoundHasNone) {
+  const Scene scene = {.system = Mechanism{.mass_matrix = {0.5}, .jacobian = {2.0, -0.25}, .rates = {1.0}},
+                       .friction = {.kinetic_coefficient = 0.125},
+                       .restitution = NewtonCoefficient{0.5}};
+  for (const char* by : {"friction.kinetic_coefficient", "mechanism.jacobian[0]"}) {
+    const Derivative d = Only(scene, "rates_after[0]", by);
+    EXPECT_FALSE(d.value.has_value()) << by;
+    EXPECT_LT(std::fabs(d.from_below.value_or(0.0)) + std::fabs(d.from_above.value_or(0.0)), 1e3) << by;
+  }
+}
+
+TEST(DerivativesTest, ContactThatSeparatesFeelsNoLawOfSpeed) {
+  Scene scene = {.system = PlanarContact{1.0, 0.0, 1.0, 1.0, 1.0}, .restitution = NewtonCoefficient{0.5}};
+  scene.friction.by_speed = PowerLaw{0.25, 0.5};
+  const Derivative d = Only(scene, "contact_velocity_after.normal_m_s", "planar_contact.normal_m_s");
+  EXPECT_EQ(d.kind, DerivativeKind::kTwoSided) << d.reason;
+  EXPECT_EQ(d.value, 1.0);
+}
+
 // The rows of J are parallel, J = (2 a, a), so that W = s (4, 2; 2, 1) with s = a M^-1 a' has rank one for every M.
 // Slip and approach end together: tau = |v0|/s/(1 + 2 mu) + e |v0|/s/(1 - 2 mu).
 TEST(DerivativesTest, WThatKeepsRankOneHasDerivatives) {
