@@ -125,7 +125,8 @@ absl::Status ByColumns(const AuditRows& rows, const absl::Status& status) {
   for (size_t i = rows.inputs.size(); i > 0; --i) {
     const std::string place = absl::StrCat("inputs[", i - 1, "]"),
                       column = absl::StrCat("column ", rows.inputs[i - 1].path);
-    message = absl::StrReplaceAll(message, {{place + ".path", column}, {place + ".values", column}, {place, column}});
+    message = absl::StrReplaceAll(
+        message, {{absl::StrCat(place, ".path"), column}, {absl::StrCat(place, ".values"), column}, {place, column}});
   }
   return {status.code(), message};
 }

@@ -38,7 +38,8 @@ std::vector<Violation> CheckInputs(const Scene& scene, const std::vector<InputCo
   return violations;
 }
 
-InputScene::InputScene(const Scene& scene, const std::vector<InputColumn>& inputs) : scene_(scene), inputs_(inputs) {
+InputScene::InputScene(Scene scene, const std::vector<InputColumn>& inputs)
+    : scene_(std::move(scene)), inputs_(inputs) {
   for (const InputColumn& input : inputs) {
     absl::StatusOr<Field> field = ResolveField(input.path, scene_);
     CheckInvariant(field.ok(), "the inputs of an audit were checked");

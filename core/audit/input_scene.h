@@ -22,7 +22,7 @@ std::vector<Violation> CheckInputs(const Scene& scene, const std::vector<InputCo
 class InputScene {
  public:
   // The inputs have passed CheckInputs, are as long as there are rows or have one value, and must outlive this object.
-  InputScene(const Scene& scene, const std::vector<InputColumn>& inputs);
+  InputScene(Scene scene, const std::vector<InputColumn>& inputs);
   InputScene(const InputScene&) = delete;
   InputScene& operator=(const InputScene&) = delete;
 

@@ -1,8 +1,7 @@
 // The methods of a contact in a plane whose impact takes no time: the planar model in plain and compensated arithmetic,
 // tangential compliance, and impact laws.
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "core/answer/outcome_parts.h"
 #include "core/cost/methods_by_model.h"
@@ -44,14 +43,16 @@ Kernel CompensatedKernel(const Problem& problem) {
 void AddPlanar(const Problem& problem, const ContactPhysics& physics, const ReferencePointer& exact,
                double reduction_error, Methods& methods) {
   const double neglected = NeglectedBy(Model::kPlanar, problem, physics);
-  for (const Arithmetic arithmetic : {Arithmetic::kPlain, Arithmetic::kCompensated}) {
+  const auto add = [&](Arithmetic arithmetic, Kernel kernel) {
     methods.push_back({.name = "planar, " + NameOf(arithmetic),
                        .method = {.model = Model::kPlanar, .arithmetic = arithmetic},
-                       .kernel = arithmetic == Arithmetic::kPlain ? PlainKernel(problem) : CompensatedKernel(problem),
+                       .kernel = std::move(kernel),
                        .claimed_modelling = neglected,
                        .claimed_reduction = reduction_error,
                        .exact = exact});
-  }
+  };
+  add(Arithmetic::kPlain, PlainKernel(problem));
+  add(Arithmetic::kCompensated, CompensatedKernel(problem));
 }
 
 double NeglectedBy(Model model, const Problem& problem, const ContactPhysics& physics) {
@@ -67,7 +68,7 @@ ReferencePointer AddCompliant(const Problem& problem, const ContactPhysics& phys
     if (!impact.Converged()) return KernelAnswer{.failure = "The impact has not ended after the most sections."};
     return KernelAnswer{.velocity = {impact.u1, 0.0, impact.v1}, .claimed = impact.error_estimate};
   };
-  const ReferencePointer exact = MakeReference([compliance](Stopped) {
+  ReferencePointer exact = MakeReference([compliance](Stopped) {
     const compliant::Impact impact = compliant::Solve(compliance);
     return ReferenceAt({impact.u1, 0.0, impact.v1}, impact.error_estimate,
                        "the model of tangential compliance itself, with the error that it estimates");
