@@ -2,12 +2,11 @@
 
 import re
 import subprocess
-import threading
 import time
 
 import grpc
 
-from calls import channel, cheap, code_of, long_sweep, require_served, stub
+from calls import PENDULUM, channel, cheap, code_of, require_served, stub
 from framework import PROCESSORS, Server, check, in_threads, main, percentile, require, tools
 from http2 import SERVICE, message
 
@@ -98,28 +97,26 @@ def open_loop(server, rate, seconds):
 
 
 class Sweeps:
-    """Sweeps without an end, each read by a thread on a connection of its own."""
+    """Sweeps without an end, each of a process of its own, so that reading them does not hold up who measures."""
 
     def __init__(self, server, count):
-        self.points = [0] * count
-        self.lines = [channel(server.address) for _ in range(count)]
-        self.errors = []
-        self.closed = False
-        for i, line in enumerate(self.lines):
-            threading.Thread(target=self._read, args=(i, stub(line)), daemon=True).start()
-
-    def _read(self, i, on):
-        try:
-            for chunk in on.Sweep(long_sweep(10**10)):
-                self.points[i] = chunk.points_done
-        except (grpc.RpcError, ValueError) as error:  # A channel that is closed raises the latter.
-            if not self.closed:
-                self.errors.append(str(error))
+        scene = tools().work / "sweep.textproto"
+        scene.write_text(PENDULUM, encoding="ascii")
+        command = [tools().ricochet, "sweep", "--scene", scene, "--server", server.address, "--format", "csv",
+                   "--axis", "pendulum.b_m=lin:0.4:2.1:10000000000", "--column", "coefficients.newton"]
+        self.clients = [subprocess.Popen(command, stdout=subprocess.PIPE) for _ in range(count)]
+        self.counters = [subprocess.Popen(["wc", "--lines"], stdin=client.stdout, stdout=subprocess.PIPE, text=True)
+                         for client in self.clients]
+        for client in self.clients:
+            client.stdout.close()  # The counter has it.
 
     def close(self):
-        self.closed = True
-        for line in self.lines:
-            line.close()
+        """Ends them; returns the points of each, and how many had ended before."""
+        ended = sum(client.poll() is not None for client in self.clients)
+        for client in self.clients:
+            client.kill()
+            client.wait()
+        return [int(counter.communicate()[0]) for counter in self.counters], ended
 
 
 @check("Solves beside sweeps", "p99 of Solves beside 8 sweeps (p90 in the short run) is at most 25 times that alone and 20 ms, "
@@ -131,12 +128,10 @@ def beside_sweeps():
         sweeps = Sweeps(server, 8)
         try:
             time.sleep(0.5)
-            before = list(sweeps.points)
             beside = percentile(open_loop(server, 100, seconds), part)
-            shares = [after - first for after, first in zip(sweeps.points, before)]
         finally:
-            sweeps.close()
-        require(not sweeps.errors, f"sweeps ended with {sweeps.errors}")
+            shares, ended = sweeps.close()
+        require(ended == 0, f"{ended} sweeps ended")
         require(min(shares) > 0 and max(shares) <= 4 * min(shares), f"points of the sweeps: {shares}")
         require(beside <= 25 * max(alone, 0.02), f"alone {alone:.4f} s, beside 8 sweeps {beside:.4f} s")
         return {"alone s": alone, "beside s": beside, "points, most over least": max(shares) / min(shares)}
