@@ -109,11 +109,11 @@ class Writer {
   bool list_;
 };
 
-// Says why an audit of the scene calls a row invalid.
-std::string WhyInvalidIn(const Scene& scene, const AuditRows& rows, size_t row) {
+// Says why an audit calls a row invalid. `scene` has the inputs of the rows.
+std::string WhyInvalidIn(audit::InputScene& scene, const AuditRows& rows, size_t row) {
   if (std::string cell = WhyInvalid(rows, row); !cell.empty()) return cell;
   std::optional<SceneContact> contact;
-  const std::vector<Violation> violations = audit::InputScene(scene, rows.inputs).SetRow(row, contact);
+  const std::vector<Violation> violations = scene.SetRow(row, contact);
   if (!violations.empty()) return absl::StrCat(violations[0].field, " ", violations[0].description);
   return "the contact cannot have this velocity before the impact, a number exceeds the largest double, or the audit "
          "takes too many steps";
@@ -146,10 +146,11 @@ class Auditor {
           absl::StrCat("the server answered ", response->reports.size(), " rows of ", rows.lines.size()));
     }
     std::string text = ending_.summary.rows == 0 ? writer_.Begin() : "";
+    audit::InputScene of_rows(scene_, rows.inputs);
     for (size_t i = 0; i < rows.lines.size(); ++i) {
       const AuditReport& report = response->reports[i];
       const bool is_invalid = report.regime == Regime::kInvalid;
-      const Row row{ending_.summary.rows, rows.lines[i], report, is_invalid ? WhyInvalidIn(scene_, rows, i) : ""};
+      const Row row{ending_.summary.rows, rows.lines[i], report, is_invalid ? WhyInvalidIn(of_rows, rows, i) : ""};
       if (is_invalid && named_++ < kNamedRows) ending_.first_invalid += Complaint(row);
       if (!data_.picture.file.empty()) plot_.Add(report);
       audit::Add(row.index, report, ending_.summary);

@@ -59,7 +59,7 @@ absl::StatusOr<CsvReader> OpenTable(std::istream& stream, const DataOptions& dat
     if (reader->IsSkipped(i)) continue;
     const absl::StatusOr<std::string> field = FullField(scene, reader->header()[i], "--data, column");
     if (!field.ok()) return field.status();
-    reader->Define(i, *field, SpellingOf(*field) == Spelling::kAngle ? CellKind::kAngle : CellKind::kNumber);
+    reader->Define(i, *field, CellKindOf(*field));
   }
   return reader;
 }

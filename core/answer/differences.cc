@@ -32,7 +32,7 @@ constexpr int kLastStep = 30;
 struct Estimate {
   double rate = 0.0;
   double error = kUnknown;
-  bool is_cut_off = false;  // What the formula cuts off is most of the error: a shorter step may be better.
+  bool is_cut_off = false;  // Most of the error is cut off by the formula: a shorter step may be better.
 };
 
 // The weights of the values in 1 ... count steps for the derivative at 0, in which a constant has no part.

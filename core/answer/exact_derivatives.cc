@@ -198,33 +198,33 @@ OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
   if (LosesRank(side)) {
     return {.why_none = "the rank of W, or whether the velocity lies in its range, changes at once"};
   }
-  if (!std::isfinite(ValueAt(place, ReductionOf(side), impacts_[side.impact].tangent.value)) ||
-      !std::isfinite(RateOf(side, place))) {
+  const double value = ValueAt(place, ReductionOf(side), impacts_[side.impact].tangent.value);
+  const double rate = RateOf(side, place);
+  if (!std::isfinite(value) || !std::isfinite(rate)) {
     return {.why_none = "the number jumps or changes infinitely fast"};
   }
-  if (Jumps(side, place)) return {.why_none = "the number jumps"};
-  if (place >= kOutputs && HidesInItsImpulse(side, place)) return {.why_none = "the impulse grows without bound"};
-  return {.rate = RateOf(side, place) + 0.0};
+  if (Jumps(side, place, value, rate)) return {.why_none = "the number jumps"};
+  if (place >= kOutputs && HidesInItsImpulse(side, place, value))
+    return {.why_none = "the impulse grows without bound"};
+  return {.rate = rate + 0.0};
 }
 
 // Rounding alone is left where impulses without bound cancel.
-bool ExactDerivatives::HidesInItsImpulse(const Side& side, size_t place) const {
+bool ExactDerivatives::HidesInItsImpulse(const Side& side, size_t place, double value) const {
   constexpr double kMost = 0x1p10;
   const double* const x = LinearNumberAt<2>(place - kOutputs, ReductionOf(side)).of_impulse;
-  const std::array<size_t, 2> impulses = {PlaceOf(PlanarOutput::kTangentialImpulse),
-                                          PlaceOf(PlanarOutput::kNormalImpulse)};
-  const auto& values = impacts_[side.impact].tangent.value;
-  const double size = std::max(std::fabs(ValueAt(place, ReductionOf(side), values)), SizeOf(place));
-  return std::fabs(x[0] * values[impulses[0]]) > kMost * size || std::fabs(x[1] * values[impulses[1]]) > kMost * size;
+  const auto& of_impact = impacts_[side.impact].tangent.value;
+  const double most = kMost * std::max(std::fabs(value), SizeOf(place));
+  return std::fabs(x[0] * of_impact[PlaceOf(PlanarOutput::kTangentialImpulse)]) > most ||
+         std::fabs(x[1] * of_impact[PlaceOf(PlanarOutput::kNormalImpulse)]) > most;
 }
 
-bool ExactDerivatives::Jumps(const Side& side, size_t place) const {
-  const double value = ValueAt(place, ReductionOf(side), impacts_[side.impact].tangent.value);
+bool ExactDerivatives::Jumps(const Side& side, size_t place, double value, double rate) const {
   const double here = ValueAt(place, std::get<PlanarReduction>(here_->reduction), values_here_);
   const double size = std::max({std::fabs(here), std::fabs(value), SizeOf(place)});
   // A number that depends on one which is moved beside 0 moves with it, linearly or with a power of it; one that grows
   // without bound as that falls to 0 moves against its own slope.
-  const double moved = IsMoved(side) ? RateOf(side, place) * side.step : 0.0;
+  const double moved = IsMoved(side) ? rate * side.step : 0.0;
   return !(std::fabs(value - here - moved) <= std::max(0x1p-30 * size, std::fabs(moved)));
 }
 
@@ -258,8 +258,11 @@ double ExactDerivatives::LargestRate(const Number& number) const {
 double ExactDerivatives::LargestRate(const Number& number, size_t place) const {
   double largest = 0.0;
   for (const Side* const side : {&number.below, &number.above}) {
+    if (!side->exists) continue;
+    const double value = ValueAt(place, ReductionOf(*side), impacts_[side->impact].tangent.value);
+    const double rate = RateOf(*side, place);
     // The slope of a number that jumps beside 0 is rounding over the distance from it.
-    if (side->exists && !Jumps(*side, place)) largest = std::max(largest, std::fabs(RateOf(*side, place)));
+    if (!Jumps(*side, place, value, rate)) largest = std::max(largest, std::fabs(rate));
   }
   return largest;
 }
@@ -271,8 +274,8 @@ Derivative ExactDerivatives::At(size_t of, size_t by) const {
   const bool both = below.rate.has_value() && above.rate.has_value();
   bool agree =
       both && std::fabs(*below.rate - *above.rate) <= kRounding * (std::fabs(*below.rate) + std::fabs(*above.rate));
+  const Threshold threshold = agree ? Threshold::kUnspecified : ThresholdOf(number);
   if (both && !agree) {
-    const Threshold threshold = ThresholdOf(number);
     const bool has_one_course = threshold == Threshold::kUnspecified || threshold == Threshold::kSpeedTable;
     double slight = IsMoved(number.above) ? kSlight : 0.0;
     if (!IsMoved(number.above) && has_one_course) slight = kUnseen / std::fabs(number.above.step);
@@ -280,7 +283,7 @@ Derivative ExactDerivatives::At(size_t of, size_t by) const {
     agree = std::fabs(*below.rate - *above.rate) <= least;
     if (agree) below.rate = above.rate = 0.5 * (*below.rate + *above.rate);
   }
-  return Join(below, above, agree, agree ? Threshold::kUnspecified : ThresholdOf(number));
+  return Join(below, above, agree, agree ? Threshold::kUnspecified : threshold);
 }
 
 std::optional<double> ExactDerivatives::ErrorOf(size_t of, size_t by) const {

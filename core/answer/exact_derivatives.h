@@ -73,10 +73,10 @@ class ExactDerivatives {
   double SizeOf(size_t place) const;
   // The larger rate of both sides, and the largest of any number of the outcome, over its size.
   double LargestRate(const Number& number, size_t place) const;
-  // True if the number at `place` is another beside the scene than in it.
-  bool Jumps(const Side& side, size_t place) const;
-  // True if the linear number at `place` is a small rest of what the impulses make of it.
-  bool HidesInItsImpulse(const Side& side, size_t place) const;
+  // True if the number at `place`, which is `value` on the side, is another in the scene itself.
+  bool Jumps(const Side& side, size_t place, double value, double rate) const;
+  // True if the linear number at `place`, `value`, is a small rest of what the impulses make of it.
+  bool HidesInItsImpulse(const Side& side, size_t place, double value) const;
   double LargestRate(const Number& number) const;
   static bool IsMoved(const Side& side);
   OneSided LimitOf(const Side& side, size_t place) const;

@@ -41,7 +41,7 @@ enum class Freedom {
   kMany,             // Two free coordinates or more.
   kTwoAlone,         // Two, where nothing else moves: v is a multiple of the part of u along one direction.
   kOneBesideOthers,  // One free coordinate, so that W = y y^T. Coordinates that are held, or the surface, move, too.
-  kOneAlone,         // The same where nothing else moves: (u, v) = y q', and both impacts lock where one does.
+  kOneAlone,         // Nothing else moves: (u, v) = y q', and both impacts lock where one does.
 };
 
 // The outcome is that of the reduction, with its timeline and its effective coefficients. Returns nothing if B surely

@@ -163,8 +163,9 @@ void Count(int64_t row, Tally& tally) {
 
 absl::StatusOr<AuditRows> AuditRows::Make(const AuditBatchRequest& request) {
   std::optional<SceneContact> contact;
-  std::vector<Violation> violations = request.inputs.empty() ? audit::CheckScene(request.scene, contact)
-                                                             : audit::CheckInputs(request.scene, request.inputs);
+  std::vector<Violation> violations = request.inputs.empty()
+                                          ? audit::CheckScene(request.scene, contact)
+                                          : audit::InputScene(request.scene, request.inputs).Violations();
   if (std::holds_alternative<std::monostate>(request.scene.system)) return InvalidRequest(violations);
   const std::vector<ColumnRule> rules = Rules(request, TangentialDirections(request.scene.system));
   const size_t rows = RowsOf(rules);

@@ -4,47 +4,46 @@
 #include <utility>
 #include <variant>
 
-#include "absl/status/statusor.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/audit/audit_parts.h"
-#include "core/base/invariant.h"
-#include "core/scene/driven_fields.h"
+#include "core/scene/field.h"
 #include "core/scene/rigid.h"
 #include "core/scene/validate.h"
 
 namespace ricochet::audit {
 
-std::vector<Violation> CheckInputs(const Scene& scene, const std::vector<InputColumn>& inputs) {
-  if (std::holds_alternative<std::monostate>(scene.system)) return Validate(scene, RestitutionIs::kOptional);
+static std::vector<std::string> PathsOf(const Scene& scene, const std::vector<InputColumn>& inputs) {
   std::vector<std::string> paths;
+  if (std::holds_alternative<std::monostate>(scene.system)) return paths;
   for (const InputColumn& input : inputs) paths.push_back(input.path);
-  Scene driven = scene;
-  const DrivenFields fields(
-      paths, [](size_t i) { return absl::StrCat("inputs[", i, "]"); }, ".path", driven);
-  if (!fields.violations().empty()) return fields.violations();
-  for (size_t i = 0; i < paths.size(); ++i) {
-    if (!absl::StartsWith(paths[i], "restitution.") && !absl::StartsWith(paths[i], "impact_law.")) continue;
-    return {MakeViolation(absl::StrCat("inputs[", i, "].path"), Found(paths[i]),
+  return paths;
+}
+
+InputScene::InputScene(Scene scene, const std::vector<InputColumn>& inputs)
+    : scene_(std::move(scene)),
+      inputs_(inputs),
+      fields_(
+          PathsOf(scene_, inputs), [](size_t i) { return absl::StrCat("inputs[", i, "]"); }, ".path", scene_) {}
+
+std::vector<Violation> InputScene::Violations() const {
+  if (!fields_.violations().empty()) return fields_.violations();
+  for (size_t i = 0; i < inputs_.size(); ++i) {
+    const std::string& path = inputs_[i].path;
+    if (!absl::StartsWith(path, "restitution.") && !absl::StartsWith(path, "impact_law.")) continue;
+    return {MakeViolation(absl::StrCat("inputs[", i, "].path"), Found(path),
                           "be another number, an audit uses neither restitution nor impact law")};
   }
   std::optional<SceneContact> unused;
   std::vector<Violation> violations =
-      Validate(driven, RestitutionIs::kOptional, unused,
-               [&](const Violation& violation) { return !fields.CanBeCured(violation); });
+      Validate(scene_, RestitutionIs::kOptional, unused,
+               [this](const Violation& violation) { return !fields_.CanBeCured(violation); });
+  if (!violations.empty()) return violations;
   // Whether a tangential spring shows in an audit depends on the numbers of each row.
-  if (driven.compliance.has_value()) driven.compliance->tangential_ratio_squared.reset();
-  if (violations.empty()) RequireRigid(driven, RigidIn::kNormal, "for an audit", violations);
+  Scene without_spring = scene_;
+  if (without_spring.compliance.has_value()) without_spring.compliance->tangential_ratio_squared.reset();
+  RequireRigid(without_spring, RigidIn::kNormal, "for an audit", violations);
   return violations;
-}
-
-InputScene::InputScene(Scene scene, const std::vector<InputColumn>& inputs)
-    : scene_(std::move(scene)), inputs_(inputs) {
-  for (const InputColumn& input : inputs) {
-    absl::StatusOr<Field> field = ResolveField(input.path, scene_);
-    CheckInvariant(field.ok(), "the inputs of an audit were checked");
-    fields_.push_back(*std::move(field));
-  }
 }
 
 std::vector<Violation> InputScene::SetRow(size_t row, std::optional<SceneContact>& contact) {

@@ -8,33 +8,34 @@
 #include <vector>
 
 #include "core/contact/scene_contact.h"
-#include "core/scene/field.h"
+#include "core/scene/driven_fields.h"
 #include "ricochet/audit.h"
 #include "ricochet/error.h"
 #include "ricochet/scene.h"
 
 namespace ricochet::audit {
 
-// Lists what is wrong with the paths of inputs, and what makes the scene none to audit whatever they state.
-std::vector<Violation> CheckInputs(const Scene& scene, const std::vector<InputColumn>& inputs);
-
 // Thread safety: one thread at a time.
 class InputScene {
  public:
-  // The inputs have passed CheckInputs, are as long as there are rows or have one value, and must outlive this object.
+  // The inputs must outlive this object.
   InputScene(Scene scene, const std::vector<InputColumn>& inputs);
   InputScene(const InputScene&) = delete;
   InputScene& operator=(const InputScene&) = delete;
 
-  // Sets the numbers of a row and lists what makes its scene none to audit. `contact` is that of a scene without
-  // violations.
+  // Lists, before the first row, what is wrong with the paths, and what makes the scene none to audit whatever the
+  // inputs state.
+  std::vector<Violation> Violations() const;
+
+  // Sets the numbers of a row and lists what makes its scene none to audit. There are no violations of all rows, and
+  // each input has a value for each row or one for all. `contact` is that of a scene without violations.
   std::vector<Violation> SetRow(size_t row, std::optional<SceneContact>& contact);
   const Scene& scene() const { return scene_; }
 
  private:
   Scene scene_;
   const std::vector<InputColumn>& inputs_;
-  std::vector<Field> fields_;  // One an input.
+  DrivenFields fields_;  // One an input.
 };
 
 }  // namespace ricochet::audit

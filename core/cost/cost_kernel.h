@@ -27,7 +27,7 @@ using Velocity3 = std::array<double, 3>;
 struct KernelAnswer {
   Velocity3 velocity = {};
   double claimed = 0.0;    // The model's own numerical error over V, as a bound or an estimate.
-  double modelling = 0.0;  // What the answer says of effects that are left out, over V.
+  double modelling = 0.0;  // The error that effects left out cause, as the answer states it, over V.
   // The numerical error over V, if the answer has more digits than doubles can tell.
   std::optional<double> numerical_error;
   int64_t steps = 0;

@@ -28,7 +28,7 @@ struct Sums {
 Sums NormalMeans(const Problem& problem) {
   constexpr double kRatio = 1.01;
   constexpr double kLargest = 9.0;
-  constexpr double kSmallPart = 1e-9;  // What lies below this part of the scale has no share in the means.
+  constexpr double kSmallPart = 1e-9;  // Parts of the scale below this have no share in the means.
   constexpr double kDensityOfBothSigns = std::numbers::sqrt2 * std::numbers::inv_sqrtpi;
   const double step = Log(kRatio);
   const double scale = problem.loss_scale;

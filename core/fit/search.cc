@@ -214,7 +214,7 @@ void Approach(const std::vector<double>& start, Model& model, Minimum& found) {
     }
     // A number in the range of the starts has not run off and stays where it is.
     if (!(std::fabs(found.at[k] - start[k]) > 4.0 * problem.scale[k]) || move(k, start[k])) continue;
-    constexpr int kMostHalves = 1100;  // Of the largest double, none is left.
+    constexpr int kMostHalves = 1100;  // So many halves leave nothing of the largest double.
     for (int i = 0; i < kMostHalves && move(k, start[k] + 0.5 * (found.at[k] - start[k])); ++i) continue;
   }
 }

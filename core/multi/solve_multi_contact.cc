@@ -450,7 +450,7 @@ class Answerer {
   const MultiReduction& reduction_;
   const Eigen::VectorXd velocity_;
   absl::FunctionRef<bool()> stopped_;
-  double w_scale_ = 1.0, v_scale_ = 1.0, stiffness_scale_ = 1.0;  // What the numbers of the problem are divided by.
+  double w_scale_ = 1.0, v_scale_ = 1.0, stiffness_scale_ = 1.0;  // They divide the numbers of the problem.
   SortedProblem sorted_;
   EnergyMetric metric_;
   std::vector<Output> outputs_;

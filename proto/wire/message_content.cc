@@ -31,7 +31,7 @@ class Walk {
 
   // Reads the fields of one message to their end. Returns false where something is wrong, or the bytes are no message.
   bool Read(const Descriptor& type) {
-    std::vector<Step> next;  // Of each list, the entry that comes next.
+    std::vector<Step> next;  // The entry that comes next in each list.
     while (const uint32_t tag = in_.ReadTag()) {
       const int number = WireFormatLite::GetTagFieldNumber(tag);
       const FieldDescriptor* const field = type.FindFieldByNumber(number);
@@ -57,7 +57,7 @@ class Walk {
  private:
   struct Step {
     const FieldDescriptor* field;
-    std::optional<int> index = std::nullopt;  // Of an entry of a list of messages.
+    std::optional<int> index = std::nullopt;  // Only an entry of a list of messages has it.
   };
 
   static Step TakeNext(const FieldDescriptor& list, std::vector<Step>& next) {

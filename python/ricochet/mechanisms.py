@@ -26,7 +26,7 @@ COLUMNS = [*_IMPULSE, *(f"contact_velocity_after.{name}" for name in (
 
 
 class AtContact(NamedTuple):
-    """What ``at_contact`` answers; for a batch the arrays have a leading axis of states."""
+    """The answer of ``at_contact``; for a batch the arrays have a leading axis of states."""
 
     rates_after: "Numbers"
     """The generalised velocities after the impact."""

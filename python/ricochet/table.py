@@ -84,7 +84,7 @@ class Table:
     """Counts of rows: ``inadmissible``, ``without_end``, ``not_converged``, ``separating``, and by regime for a sweep;
     a batch has ``bad_rows``, too."""
     attrs: dict[str, str] = field(default_factory=dict)
-    """Of a sweep: the request and the engine, by the names that the NetCDF files of the command line have."""
+    """A sweep has its request and the engine here, by the names that the NetCDF files of the command line have."""
     index: Any = None
     """The index of the pandas frame or series that the rows are from; None if they are from others."""
 

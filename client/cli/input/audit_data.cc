@@ -52,21 +52,21 @@ std::vector<std::string> AuditTable::KnownNames() const {
 
 std::optional<AuditTable::Place> AuditTable::PlaceOf(const std::string& cell) const {
   for (const NamedAuditColumn& known : kAuditColumns) {
-    if (cell == known.name) return Place{.values = known.values, .velocity = {}, .field = {}};
+    if (cell == known.name) return Place{.values = known.values};
   }
   const auto found = std::find(velocities_.begin(), velocities_.end(), cell);
   if (found != velocities_.end()) {
-    return Place{.values = nullptr, .velocity = static_cast<size_t>(found - velocities_.begin()), .field = {}};
+    return Place{.velocity = static_cast<size_t>(found - velocities_.begin())};
   }
   if (std::count(fields_.begin(), fields_.end(), cell) == 0) return std::nullopt;
-  return Place{.values = nullptr, .velocity = {}, .field = cell};
+  return Place{.field = cell};
 }
 
 // A short name must not mean both an observed number and a field of the scene. A name that means none is returned.
 absl::StatusOr<std::string> AuditTable::FullColumn(const std::string& cell, const std::string& name) const {
+  if (PlaceOf(cell).has_value()) return cell;
   const std::string what = absl::StrCat(name, " has the column");
   const absl::StatusOr<std::string> observed = FullName(cell, KnownNames(), what);
-  if (PlaceOf(cell).has_value()) return cell;
   std::vector<std::string> fields;
   for (const std::string& field : fields_) {
     // The contact's velocity that an audit compares is not that of the surface.
@@ -97,13 +97,11 @@ absl::Status AuditTable::SetPlaces(const std::string& name) {
     if (std::count(places_.begin(), places_.end(), place) > 0) {
       return absl::InvalidArgumentError(absl::StrCat(name, " has the column ", cell, " twice"));
     }
-    if (!place->field.empty()) {
-      reader_.Define(i, cell, SpellingOf(*full) == Spelling::kAngle ? CellKind::kAngle : CellKind::kNumber);
-    }
+    if (!place->field.empty()) reader_.Define(i, cell, CellKindOf(*full));
     places_.push_back(place);
   }
   const auto has = [this](size_t velocity) {
-    return std::count(places_.begin(), places_.end(), Place{.values = nullptr, .velocity = velocity, .field = {}}) > 0;
+    return std::count(places_.begin(), places_.end(), Place{.velocity = velocity}) > 0;
   };
   std::vector<std::string> missing;
   for (size_t k = 0; k < velocities_.size(); ++k) {

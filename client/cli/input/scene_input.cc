@@ -229,7 +229,7 @@ absl::Status CheckWholeRead(const std::istream& stream, const std::string& path)
 }
 
 absl::StatusOr<std::ifstream> OpenToRead(const std::string& path) {
-  std::error_code unknown;  // What cannot be looked at cannot be opened either.
+  std::error_code unknown;  // A file that cannot be looked at cannot be opened either.
   if (std::filesystem::is_directory(path, unknown)) return CannotRead(path, EISDIR);
   std::ifstream file(path, std::ios::binary);
   if (!file) return CannotRead(path, errno);

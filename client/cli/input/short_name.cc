@@ -84,6 +84,10 @@ Spelling SpellingOf(const std::string& path) {
   return info == nullptr || info->unit == "rad" ? Spelling::kAngle : Spelling::kNumber;
 }
 
+CellKind CellKindOf(const std::string& path) {
+  return SpellingOf(path) == Spelling::kAngle ? CellKind::kAngle : CellKind::kNumber;
+}
+
 // Completes both names of a derivative: that of a number among `ofs`, and that of a field among `bys`.
 static absl::StatusOr<std::string> FullDerivative(const DerivativeName& name, const std::vector<std::string>& ofs,
                                                   const std::vector<std::string>& bys) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "client/cli/io/csv_table.h"
 #include "client/cli/text/number_input.h"
 #include "ricochet/scene.h"
 
@@ -25,6 +26,7 @@ absl::StatusOr<std::string> FullField(const Scene& scene, const std::string& nam
 
 // Says how the number at the path of a field may be written.
 Spelling SpellingOf(const std::string& path);
+CellKind CellKindOf(const std::string& path);
 
 // Returns the columns of the scene that `names`, the values of --column, mean; "coefficients.*" means all that start
 // with "coefficients.", and spaces around a name do not count. Errors: those of FullName.

@@ -12,7 +12,7 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr size_t kLeastForAFew = 10;  // Of fewer values none may lie outside the middle part.
+constexpr size_t kLeastForAFew = 10;  // With fewer values none may lie outside the middle part.
 constexpr size_t kFew = 20;           // On each side, one value in this many may lie outside the middle part.
 constexpr double kFarBeyond = 4.0;    // Lengths of the middle part.
 constexpr double kBeside = 0.25;

@@ -91,7 +91,7 @@ absl::StatusOr<SweepTable> Read(std::ifstream& stream, const std::string& path,
 }  // namespace
 
 absl::StatusOr<SweepTable> ReadSweepFile(const std::string& path, const std::vector<std::string>& columns) {
-  std::error_code unknown;  // What cannot be looked at cannot be opened either.
+  std::error_code unknown;  // A file that cannot be looked at cannot be opened either.
   if (std::filesystem::is_directory(path, unknown)) {
     return absl::InvalidArgumentError(absl::StrCat(path, ": is a directory: must be a file of a sweep"));
   }

@@ -18,7 +18,7 @@ struct SweepTable {
   // More points than this are no picture.
   static constexpr int64_t kMostPoints = 1'000'000;
 
-  std::vector<double> index;                // Of each point in its sweep; empty if the points are all of a sweep.
+  std::vector<double> index;                // Each point's place in its sweep; empty if the points are all of a sweep.
   std::vector<std::string> axes;            // Paths of the scene. The last axis runs fastest.
   std::vector<std::string> columns;         // Paths of the outcome.
   std::vector<std::vector<double>> at;      // For each axis, its value at each point.

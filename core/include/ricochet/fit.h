@@ -66,10 +66,11 @@ struct FitRequest {
   std::vector<InputColumn> inputs = {};    // Numbers that differ by row, finite; none is an unknown.
   std::vector<FitMeasured> measured = {};  // At least one, with as many measured numbers as there are unknowns or more.
   FitLoss loss = FitLoss::kUnspecified;
-  std::optional<double> loss_scale = {};  // Of a robust loss only; absent: kHuberScale or kCauchyScale.
+  std::optional<double> loss_scale = {};  // Only a robust loss has it; absent: kHuberScale or kCauchyScale.
   std::optional<int32_t> starts = {};     // In [1, kMostFitStarts]; absent: 1. Further ones spread over the bounds.
-  std::optional<int32_t> max_iterations = {};  // Of each search, in [1, kMostFitIterations]; absent: kFitIterations.
-  std::vector<std::string> region = {};        // Empty, or the paths of the two unknowns whose 95 % region is wanted.
+  std::optional<int32_t> max_iterations =
+      {};                                // Each search has so many, in [1, kMostFitIterations]; absent: kFitIterations.
+  std::vector<std::string> region = {};  // Empty, or the paths of the two unknowns whose 95 % region is wanted.
   friend bool operator==(const FitRequest&, const FitRequest&) = default;
 };
 

@@ -122,7 +122,7 @@ enum class MultiContactEnd {
   kUnspecified = 0,
   kSeparated = 1,        // No contact approaches any more.
   kEndless = 2,          // It takes infinitely many impacts; the numbers are their limit, which is proved.
-  kEndlessEstimate = 3,  // The same, but the limit is where the speeds of approach fell to the rounding of doubles.
+  kEndlessEstimate = 3,  // As kEndless, but the limit is where the speeds of approach fell to rounding.
   kWedged = 4,           // Contacts jam: forces stay for ever, and only the velocities are an answer.
   kBudgetUsedUp = 5,     // The numbers are those of the state that was reached, or to which the sequence came back.
   kUndetermined = 6,     // Two plastic contacts let go at one instant, and the limit depends on how plastic each is.
