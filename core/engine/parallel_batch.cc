@@ -49,7 +49,7 @@ absl::StatusOr<std::unique_ptr<ParallelBatch>> ParallelBatch::Make(const BatchSe
 // Returns how many rows a thread takes at once. Rows outside the lanes may take milliseconds each, so that many threads
 // should find some of a few; four together still share the lanes of a contact in space.
 size_t ParallelBatch::PieceOf(size_t rows) const {
-  return own_->is_in_lanes() ? RowSolver::kBlock : std::clamp<size_t>(rows / 64, 4, 64);
+  return own_->is_in_lanes() ? RowSolver::kBlock : std::clamp<size_t>(rows / 64, own_->is_in_space() ? 4 : 1, 64);
 }
 
 absl::StatusOr<BatchSummary> ParallelBatch::Solve(const BatchRows& rows, absl::FunctionRef<bool()> stopped) {

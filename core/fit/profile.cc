@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -21,6 +22,8 @@ constexpr int kMostFurther = 8;
 // At an end this many places of the free unknowns are evaluated, and searches start from the best kTriedPlaces.
 constexpr int kLookedAt = 128;
 constexpr size_t kTriedPlaces = 2;
+// On a plain ray each place on the way to an end is searched from this many starts, and the end itself from all.
+constexpr size_t kStartsOnTheWay = 2;
 
 // The unknowns at a distance.
 struct Place {
@@ -52,6 +55,7 @@ class Ray {
 
   RayEnd Find(int places) {
     RayEnd end = Search();
+    beyond_ = last_inside_;
     last_inside_ = inside_before_ = {0.0, best_.at};
     if (end.kind == FitEndKind::kUnbounded || end.distance == 0.0) places = 0;
     for (int i = 1; i <= places && !model_.is_stopped(); ++i) {
@@ -76,8 +80,11 @@ class Ray {
         if (inside.distance >= kFarthest) return End(FitEndKind::kUnbounded, inside.distance);
         outside = Next(std::min(inside.distance > 0.0 ? 2.0 * inside.distance : 1.0, longest_));
       }
+      is_narrowing_ = true;
       RayEnd end = Narrow(inside, outside);
+      is_narrowing_ = false;
       if (further == kMostFurther || !GoesOn(outside, inside)) return end;
+      is_plain_ = false;
     }
   }
 
@@ -93,12 +100,27 @@ class Ray {
     return start;
   }
 
-  // The unknowns at a distance, the free ones on the line through the last two places inside.
-  std::vector<double> Ahead(double distance) const {
-    std::vector<double> ahead = last_inside_.at;
-    const double part = (distance - last_inside_.distance) / (last_inside_.distance - inside_before_.distance);
-    for (size_t k = 0; k < ahead.size(); ++k) ahead[k] += part * (last_inside_.at[k] - inside_before_.at[k]);
-    return StartAt(distance, ahead, 1.0);
+  // The unknowns at a distance, the free ones on the line through the last place inside and the one beyond it or, if
+  // there is none, the one before it.
+  std::vector<double> OnLine(double distance) const {
+    const Place& other = beyond_.distance > last_inside_.distance ? beyond_ : inside_before_;
+    std::vector<double> at = last_inside_.at;
+    if (other.distance == last_inside_.distance) return StartAt(distance, at, 1.0);
+    const double part = (distance - last_inside_.distance) / (other.distance - last_inside_.distance);
+    for (size_t k = 0; k < at.size(); ++k) at[k] += part * (other.at[k] - last_inside_.at[k]);
+    return StartAt(distance, at, 1.0);
+  }
+
+  // Searches from a start, from each only once.
+  const Minimum& MinimumFrom(const std::vector<double>& start) {
+    for (const auto& [earlier, found] : searches_) {
+      if (earlier == start) return found;
+    }
+    // An iteration that lowers the objective by less changes the end by less than a tenth of its tolerance.
+    const double tolerance = 0.1 * kEndTolerance * rise_ / (best_.objective + rise_);
+    const Minimum& found = searches_.emplace_back(start, Minimize(start, is_free_, tolerance, model_)).second;
+    is_plain_ &= std::isfinite(found.objective);
+    return found;
   }
 
   // The distance, or the least number that is held there, over its step.
@@ -120,33 +142,36 @@ class Ray {
       std::erase_if(end_.computed,
                     [&](const RayPoint& point) { return point.distance <= distance && point.rise >= rise_; });
     }
+    if (!IsInside(least)) beyond_ = {distance, least.at};
     if (least.objective < best_.objective - kAsGood && !end_.better.has_value()) end_.better = least;
     return end_.computed.emplace_back(RayPoint{distance, rise});
   }
 
-  // The other unknowns start where they ended inside last. A place outside is tried from elsewhere, as they may have
-  // ended where they change nothing.
+  // Searches from starts until one ends inside. A place outside is tried from elsewhere, as the other unknowns may have
+  // ended where they change nothing, or at the edge of what has a prediction.
   RayPoint Next(double distance) {
-    Minimum least = Minimize(StartAt(distance, last_inside_.at, 1.0), is_free_, kCoarseSearch, model_);
-    if (IsInside(least)) return Adopt(distance, least);
-    for (const std::vector<double>& start : OtherStarts(distance)) {
-      if (IsInside(least)) break;
-      Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
-      if (found.objective < least.objective) least = std::move(found);
+    const std::vector<std::vector<double>> starts = StartsAt(distance);
+    Minimum least = MinimumFrom(starts[0]);
+    for (size_t i = 1; i < starts.size() && !IsInside(least); ++i) {
+      if (i == kStartsOnTheWay && is_narrowing_ && is_plain_) break;
+      const Minimum& found = MinimumFrom(starts[i]);
+      if (found.objective < least.objective) least = found;
     }
     return Adopt(distance, least);
   }
 
-  // Sees whether a place outside is inside if the other unknowns start where they ended inside last, which is nearer
-  // now than when the place was looked at, or where they fit best of many places. If so, it is the new place inside.
+  // Sees whether a place outside is inside if the other unknowns start elsewhere: where they ended inside last, which is
+  // nearer now than when the place was looked at, or where they fit best of many places. If so, it is the new place
+  // inside.
   bool GoesOn(const RayPoint& outside, RayPoint& inside) {
     if (!HasFree()) return false;
     const auto is_inside_from = [&](const std::vector<double>& start) {
-      const Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
+      const Minimum& found = MinimumFrom(start);
       if (IsInside(found)) inside = Adopt(outside.distance, found);
       return IsInside(found);
     };
-    if (is_inside_from(StartAt(outside.distance, last_inside_.at, 1.0))) return true;
+    const std::vector<std::vector<double>> starts = StartsAt(outside.distance);
+    if (std::any_of(starts.begin(), starts.end(), is_inside_from)) return true;
     const std::vector<std::vector<double>> places =
         BestPlaces(StartAt(outside.distance, best_.at, 1.0), is_free_, kLookedAt, kTriedPlaces, model_);
     return std::any_of(places.begin(), places.end(), is_inside_from);
@@ -158,22 +183,24 @@ class Ray {
     return std::any_of(is_free_.begin(), is_free_.end(), [](bool is_free) { return is_free; });
   }
 
-  // The other unknowns where a line through the last two places inside leads, at the last of them and at the best fit;
-  // and moved from these by the factor of the one that is held, or by its inverse, as numbers do of which a product
-  // or a quotient alone is measured.
-  std::vector<std::vector<double>> OtherStarts(double distance) const {
+  // The other unknowns on a line through two places, at the last place inside and at the best fit; and moved from these
+  // by the factor of the one that is held, or by its inverse, as numbers do of which a product or a quotient alone is
+  // measured. Each start comes once, the most likely ones first.
+  std::vector<std::vector<double>> StartsAt(double distance) const {
     std::vector<std::vector<double>> starts;
-    if (!HasFree()) return starts;
-    if (inside_before_.distance != last_inside_.distance) starts.push_back(Ahead(distance));
+    const auto add = [&starts](std::vector<double> start) {
+      if (std::find(starts.begin(), starts.end(), start) == starts.end()) starts.push_back(std::move(start));
+    };
+    add(OnLine(distance));
     for (const std::vector<double>* const from : {&last_inside_.at, &best_.at}) {
       const std::vector<double> held = StartAt(distance, *from, 1.0);
       double factor = 1.0;
       for (size_t k = 0; k < held.size(); ++k) {
         if (!is_free_[k] && (*from)[k] != 0.0) factor = held[k] / (*from)[k];
       }
-      if (from == &best_.at) starts.push_back(held);
-      starts.push_back(StartAt(distance, *from, 1.0 / factor));
-      starts.push_back(StartAt(distance, *from, factor));
+      add(held);
+      add(StartAt(distance, *from, 1.0 / factor));
+      add(StartAt(distance, *from, factor));
     }
     return starts;
   }
@@ -202,10 +229,14 @@ class Ray {
   const std::vector<double>& step_;
   const double rise_;
   Model& model_;
-  Place last_inside_, inside_before_;                         // The last two places inside, or the best fit.
-  double longest_ = std::numeric_limits<double>::infinity();  // The distance to the nearest bound.
-  double at_bound_ = 0.0;                                     // An end that is no further from the bound lies there.
-  RayEnd end_;  // It holds what the places so far have shown, but for the kind.
+  Place last_inside_, inside_before_;  // The last two places inside, or the best fit.
+  Place beyond_;                       // The last place outside, or the end.
+  bool is_narrowing_ = false;
+  bool is_plain_ = true;  // All searches had a prediction, and no place outside has turned out to be inside.
+  std::deque<std::pair<std::vector<double>, Minimum>> searches_;  // Each start, and what was found from it.
+  double longest_ = std::numeric_limits<double>::infinity();      // The distance to the nearest bound.
+  double at_bound_ = 0.0;  // An end that is no further from the bound lies there.
+  RayEnd end_;             // It holds what the places so far have shown, but for the kind.
 };
 
 }  // namespace

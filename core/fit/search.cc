@@ -69,11 +69,14 @@ class Residuals : public Eigen::DenseFunctor<double> {
     constexpr double kTurnsBack = 1e100;
     if (!model_.Predict(Unknowns(x), predicted_)) {
       residuals.setConstant(kTurnsBack);
+      has_turned_back_ = true;
       return 0;
     }
     for (Index i = 0; i < residuals.size(); ++i) residuals[i] = CostedAt(i).residual;
     return 0;
   }
+
+  bool has_turned_back() const { return has_turned_back_; }
 
   int df(const Eigen::VectorXd& x, Eigen::MatrixXd& slopes) const {
     const std::vector<double> at = Unknowns(x);
@@ -104,6 +107,7 @@ class Residuals : public Eigen::DenseFunctor<double> {
   const std::vector<size_t>& free_;
   std::vector<bool> is_free_;
   mutable std::vector<double> predicted_;
+  mutable bool has_turned_back_ = false;
 };
 
 double ObjectiveOf(const Problem& problem, const std::vector<double>& predicted) {
@@ -122,9 +126,13 @@ double ObjectiveAt(const std::vector<double>& at, Model& model) {
   return ObjectiveOf(model.problem(), predicted);
 }
 
-// One search from the minimum so far, to which it sets what it finds if that is better. Returns true if it is better by
-// more than the tolerance, and lies at a bound.
-bool Search(const std::vector<size_t>& free, double tolerance, Model& model, Minimum& minimum) {
+struct Step {
+  bool is_at_bound = false;      // The minimum is better by more than the tolerance, and lies at a bound.
+  bool has_turned_back = false;  // Where numbers had no prediction.
+};
+
+// One search from the minimum so far, to which it sets what it finds if that is better.
+Step Search(const std::vector<size_t>& free, double tolerance, Model& model, Minimum& minimum) {
   const std::vector<double> start = minimum.at;
   const double before = minimum.objective;
   Residuals residuals(start, free, model);
@@ -140,14 +148,42 @@ bool Search(const std::vector<size_t>& free, double tolerance, Model& model, Min
   minimum.converged = status != Eigen::LevenbergMarquardtSpace::TooManyFunctionEvaluation;
   const std::vector<double> end = residuals.Unknowns(x);
   const double objective = ObjectiveAt(end, model);
-  if (!(objective <= before)) return false;
+  Step step = {.is_at_bound = false, .has_turned_back = residuals.has_turned_back()};
+  if (!(objective <= before)) return step;
   minimum.at = end;
   minimum.objective = objective;
   const Problem& problem = model.problem();
   const bool is_at_bound = std::any_of(free.begin(), free.end(), [&problem, &end](size_t k) {
     return end[k] == problem.low[k] || end[k] == problem.high[k];
   });
-  return is_at_bound && before - objective > tolerance * before;
+  step.is_at_bound = is_at_bound && before - objective > tolerance * before;
+  return step;
+}
+
+// True if the minimum lies at the edge of where numbers have a prediction, beyond which unknown k would move.
+bool IsAtEdge(size_t k, Model& model, const Minimum& minimum) {
+  constexpr double kBeside = 1e-6;
+  const Problem& problem = model.problem();
+  for (const double side : {-kBeside, kBeside}) {
+    std::vector<double> at = minimum.at;
+    at[k] += side * std::max(std::fabs(at[k]), 1e-3 * problem.scale[k]);
+    const bool is_within = at[k] >= problem.low[k] && at[k] <= problem.high[k];
+    if (is_within && !std::isfinite(ObjectiveAt(at, model))) return true;
+  }
+  return false;
+}
+
+// Searches from a minimum at edges, with each unknown held that would move beyond one. Returns true if the minimum is
+// better by more than the tolerance.
+bool GoAlongEdges(const std::vector<size_t>& free, double tolerance, Model& model, Minimum& minimum) {
+  const double before = minimum.objective;
+  for (size_t i = 0; i < free.size() && free.size() > 1; ++i) {
+    if (minimum.iterations >= model.problem().max_iterations || !IsAtEdge(free[i], model, minimum)) continue;
+    std::vector<size_t> others = free;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    Search(others, tolerance, model, minimum);
+  }
+  return before - minimum.objective > tolerance * before;
 }
 
 }  // namespace
@@ -181,7 +217,8 @@ std::vector<double> ObjectivesAt(const std::vector<std::vector<double>>& points,
 }
 
 // Eigen's search knows no bounds: an unknown that it moves beyond one stays at the bound, and the others go on. A
-// further search from there sees whether the unknown should come back.
+// further search from there sees whether the unknown should come back. Nor does it go along the edge that a rule draws,
+// such as mu <= mu_static, so that searches that hold the unknown there go on.
 Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, double tolerance, Model& model) {
   Minimum minimum = {.at = start, .objective = ObjectiveAt(start, model), .converged = true};
   std::vector<size_t> free;
@@ -189,8 +226,11 @@ Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_f
     if (is_free[k]) free.push_back(k);
   }
   if (free.empty() || !std::isfinite(minimum.objective)) return minimum;
-  while (Search(free, tolerance, model, minimum) && !model.is_stopped() &&
-         minimum.iterations < model.problem().max_iterations) {
+  const auto may_go_on = [&] { return !model.is_stopped() && minimum.iterations < model.problem().max_iterations; };
+  bool goes_on = true;
+  while (goes_on && may_go_on()) {
+    const Step step = Search(free, tolerance, model, minimum);
+    goes_on = step.is_at_bound || (step.has_turned_back && GoAlongEdges(free, tolerance, model, minimum));
   }
   return minimum;
 }

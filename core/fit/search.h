@@ -27,7 +27,6 @@ std::vector<double> ObjectivesAt(const std::vector<std::vector<double>>& points,
 // Searches from a start within the bounds, and holds the unknowns that are not free.
 // It ends once an iteration lowers the objective by less than this part of it.
 inline constexpr double kFineSearch = 1e-13;
-inline constexpr double kCoarseSearch = 1e-9;
 Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, double tolerance, Model& model);
 
 // Moves a fit towards a start as far as it stays as good: an angle by whole turns, and a number that has left the range

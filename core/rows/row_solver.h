@@ -59,6 +59,8 @@ class RowSolver {
 
   // True if SIMD lanes give all columns, so that a row takes well below a microsecond.
   bool is_in_lanes() const { return lanes_ != nullptr && derivatives_.empty(); }
+  // True if the rows are impacts in space, of which a few are solved together.
+  bool is_in_space() const { return in_space_; }
 
   // Solves the rows [first, first + count), or fewer if `is_enough` says so, and returns how many they are; or nothing
   // once `stopped` returns true. Both functions are asked before each kRowsBetweenStops rows in SIMD lanes and before
