@@ -57,7 +57,7 @@ std::string Members(const Row& row) {
     const std::string json = JsonOf(ToProto(row.report));
     return json.substr(1, json.size() - 2);
   }
-  std::string json = R"("regime":"REGIME_INVALID","admissible":false,"invalid_reason":)";
+  std::string json = R"("regime":"REGIME_INVALID","admissible":null,"invalid_reason":)";
   AppendJson(row.reason, json);
   return json;
 }

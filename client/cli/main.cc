@@ -1,6 +1,8 @@
 // ricochet: the command line program.
 
+#include <fcntl.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <CLI/App.hpp>
 #include <algorithm>
@@ -22,6 +24,7 @@
 #include "client/cli/terminal/exit_code.h"
 #include "client/cli/terminal/grpc_log.h"
 #include "client/cli/terminal/interrupt.h"
+#include "client/cli/text/number_input.h"
 #include "client/cli/text/usage_error.h"
 
 namespace {
@@ -34,10 +37,20 @@ void KeepMemoryOfChunks() {
   mallopt(M_TRIM_THRESHOLD, kAboveAnyChunk);
 }
 
+// Opens what is closed of standard input, output and error, so that no file gets their numbers and what is written
+// there. Reading from it or writing to it still fails.
+void ReserveStandardDescriptors() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The lowest free number is this one.
+    if (fcntl(number, F_GETFD) < 0) open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  ReserveStandardDescriptors();
   KeepMemoryOfChunks();
   ricochet::cli::QuietGrpc();
   // Ignoring these signals turns a closed pipe and a full quota into errors of write; temporary files are then removed.
@@ -69,6 +82,10 @@ int main(int argc, char** argv) {
   }
   absl::Status status = ricochet::cli::UseFilesOf(*app);
   if (status.ok()) status = ricochet::cli::WithTlsAlert(command());
+  if (const std::string& angle = ricochet::cli::LargeAngleRead(); status.ok() && !angle.empty()) {
+    std::cerr << "ricochet: the angle " << angle << " lies beyond a full turn in radians; write " << angle
+              << "deg if it is in degrees\n";
+  }
   ricochet::cli::PrintError(ricochet::cli::NameFlags(*app, status));
   return ricochet::cli::ExitCodeOf(status);
 }

@@ -88,6 +88,17 @@ void AddIdleFrictionNote(Outcome& outcome) {
                   outcome);
 }
 
+// The contact of an impact without forces is that of a model without time.
+void AddTimedNote(const Scene& scene, Outcome& outcome) {
+  const bool has_forces = !std::holds_alternative<std::monostate>(scene.finite_forces);
+  if (outcome.plan.model != Model::kFiniteDuration || has_forces) return;
+  if (outcome.termination != Termination::kBudgetUsedUp) return;
+  AddUndetermined("regime",
+                  "The integration in time has used up its steps. Without the duration the impact may have an end: "
+                  "--exclude finite-duration, or EFFECT_FINITE_DURATION in `excluded`, asks for that.",
+                  outcome);
+}
+
 // True if the exact W has full rank and the one at hand is rounded. Free bodies have such a W, though rounding may have
 // made it singular; where joints take a rank away, it is exact. A W that is stated is exact, too.
 bool IsRoundedOfFullRank(const Scene& scene, int full_rank, const Outcome& outcome) {
@@ -163,6 +174,7 @@ struct AddUndeterminedOf {
 void AddNotes(const Scene& scene, const PlannedScene& planned, Outcome& outcome) {
   const Decision duration = planned.choice.decisions[static_cast<size_t>(Effect::kFiniteDuration)];
   if (duration == Decision::kNegligible) outcome.notes.push_back(DurationLeftOut());
+  AddTimedNote(scene, outcome);
   const double negligible = planned.choice.negligible;
   if (negligible > 0.0) AddVerdictNote(scene.restitution, negligible, outcome);
   VisitNumbers(scene, [&outcome](const NumberPath& path, double value, NumberRule rule) {

@@ -166,9 +166,11 @@ class Answerer {
     AttainedOutcome outcome = {.end = attained.end,
                                .events = attained.events,
                                .friction_split_is_unique = attained.split_is_unique,
-                               .work_error_j = KnownError(attained.work_error * EnergyScale()),
+                               .work_error_j = attained.work_error * EnergyScale(),
                                .error_is_proved = attained.error_is_proved};
     Vector error(attained.v.size());
+    // An error beyond all energy that there is says nothing.
+    if (!(outcome.work_error_j <= answer_.energy_before_j)) outcome.work_error_j = kInfinity;
     for (int j = 0; j < error.size(); ++j) error(j) = KnownError(attained.ErrorOf(problem, j) * v_scale_);
     // Adding 0 makes -0 positive.
     Vector in_scene = (sorted_.InScene(attained.v) * v_scale_).array() + 0.0;
@@ -192,6 +194,11 @@ class Answerer {
       const size_t place = At(sorted_.from[At(i)]);
       outcome.normal_impulse_error_n_s[place] = KnownError(attained.ErrorOfNormalImpulse(problem, i) * ImpulseScale());
       outcome.contacts[place] = LedgerOf(attained, i);
+    }
+    const auto& errors = outcome.normal_impulse_error_n_s;
+    const double largest = in_scene.cwiseAbs().maxCoeff();
+    if (std::any_of(errors.begin(), errors.end(), [largest](double one) { return !(one <= largest); })) {
+      outcome.normal_impulse_error_n_s.clear();
     }
     Sum change;
     for (int j = 0; j < attained.p.size(); ++j) change.Add(attained.p(j), problem.v(j) + attained.v(j));

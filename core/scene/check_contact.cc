@@ -66,8 +66,11 @@ void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const Eff
                  Check& check) {
   const double tn = std::abs(reduction.w[1]);
   const double nn = reduction.w[2];
-  const auto violation = [](const char* found, const char* rule) {
-    return MakeViolation("restitution.coefficient", found, rule, ViolationKind::kContact);
+  const auto violation = [&scene](const char* found, const char* rule) {
+    const char* const path = std::holds_alternative<NewtonCoefficient>(scene.restitution)    ? "restitution.newton"
+                             : std::holds_alternative<PoissonCoefficient>(scene.restitution) ? "restitution.poisson"
+                                                                                             : "restitution.energetic";
+    return MakeViolation(path, found, rule, ViolationKind::kContact);
   };
   if (!std::holds_alternative<EnergeticCoefficient>(scene.restitution)) {
     check.Require(tn == 0.0, [&] {

@@ -9,6 +9,7 @@
 
 #include "core/rows/column.h"
 #include "core/scene/field.h"
+#include "core/scene/system_velocities.h"
 #include "proto/text/message_text.h"
 #include "proto/wire/scene.h"
 #include "python/module/record.h"
@@ -72,6 +73,7 @@ void AddScene(py::module_& module) {
       .def(py::init(read), py::arg("scene"))
       .def("to_dict", &ToDict, "Returns the scene as a dictionary.")
       .def("_fields", [](const PreparedScene& self) { return Paths{AllFieldPaths(self.scene)}; })
+      .def("_velocities", [](const PreparedScene& self) { return SystemVelocityPaths(self.scene.system); })
       .def("_columns", [](const PreparedScene& self) { return Paths{ColumnPlaces(self.scene)}; })
       .def("__repr__", [](const PreparedScene& self) { return py::str("Scene({!r})").format(ToDict(self)); })
       .def(

@@ -300,7 +300,8 @@ class Client:
             columns: arrays with the names of ricochet.v1.AuditColumns, such as ``tangential_after_m_s`` and
                 ``normal_after_m_s``, m/s, or of fields of the scene that differ by row, such as
                 ``planar_body.velocity_n_m_s``, all equally long or single numbers; ``rates_after`` is a list with an
-                array for each velocity of the system, in the order of ``audit``. A pandas frame will do.
+                array for each velocity of the system, in the order of ``audit``, or each of them has a column, such as
+                ``bodies_after[0].angular_rad_s[0]``. A pandas frame will do.
 
         Returns:
             A table with every number of ricochet.v1.AuditReport; ``limits.sharp.verdict`` and its like are codes.
@@ -313,8 +314,14 @@ class Client:
         observed = _core.field_names("AuditColumns")
         # The short name of an observed number is not that of a field, too.
         fields = [path for path in scene._fields() if path.rpartition(".")[2] not in observed]
-        given = names.by_full_name(columns, [*observed, *fields], "columns")
+        velocities = scene._velocities()
+        given = names.by_full_name(columns, [*observed, *fields, *velocities], "columns")
         arrays = {name: _columns_of(name, column) for name, column in given.items()}
+        if not arrays.keys().isdisjoint(velocities) and "rates_after" not in arrays:
+            missing = [name for name in velocities if name not in arrays]
+            if missing:
+                values.refuse("columns", f"has velocities after: must have {', '.join(missing)}, too")
+            arrays["rates_after"] = _columns_of("rates_after", [arrays.pop(name) for name in velocities])
         rows = _row_count([column.shape[-1] for column in arrays.values()])
         index = _index_of("columns", columns, given, rows)
         most = self._most_audit_rows(sum(1 if column.ndim == 1 else len(column) for column in arrays.values()))

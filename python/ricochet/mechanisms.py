@@ -92,7 +92,10 @@ class States:
                   for i, entry in enumerate(self.held) if entry in self.held[:i]]
         if wrong:
             raise InvalidRequest.of(wrong)
-        is_float32 = str(getattr(M, "dtype", "")).endswith("float32")
+        entry: Any = M
+        while isinstance(entry, (list, tuple)) and entry:
+            entry = entry[0]
+        is_float32 = str(getattr(entry, "dtype", "")).endswith("float32")
         given["M"] = _without_rounding(given["M"], _ROUNDING_OF_FLOAT32 if is_float32 else _ROUNDING)
         count = several.pop() if several else (1,)
         self.count = count[0]

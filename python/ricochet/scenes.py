@@ -24,10 +24,6 @@ def read_scene(path: str | os.PathLike[str]) -> dict[str, Any]:
     with open(path, "rb") as file:
         text = file.read().removeprefix(codecs.BOM_UTF8)
     try:
-        text.decode()
-    except UnicodeDecodeError as error:
-        refuse(os.fspath(path), f"is not UTF-8 at byte {error.start}")
-    try:
-        return _core.parse_scene(os.fspath(path), text)
+        return _core.parse_scene(os.fsencode(path), text)
     except ValueError as error:
-        refuse(os.fspath(path), str(error))
+        refuse(os.fsdecode(path), str(error))

@@ -68,9 +68,10 @@ def dictionary_expected(values: Any, path: str, known: list[str]) -> NoReturn:
 
 def plain(value: Any) -> Any:
     """Returns the Python object in a numpy scalar or in an array of one element that is not masked; any other value as
-    it is."""
-    holds_one = isinstance(value, (np.generic, np.ndarray)) and value.size == 1
-    return value.item() if holds_one and not np.any(getattr(value, "mask", False)) else value
+    it is. Times of numpy, which count as whole numbers there, become texts, so that they are refused."""
+    if not isinstance(value, (np.generic, np.ndarray)) or value.size != 1 or np.any(getattr(value, "mask", False)):
+        return value
+    return str(value) if value.dtype.kind in "mM" else value.item()
 
 
 def number(value: Any, path: str) -> float:

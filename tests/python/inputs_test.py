@@ -53,6 +53,8 @@ class Numbers(Case):
         "dictionary": ({"a": 1}, "must be a number"),
         "masked": (np.ma.masked, "= masked: must be a number"),
         "array of what is masked": (np.ma.array([1.0], mask=[True]), "must be a number"),
+        "time": (np.timedelta64(1, "ns"), "must be a number"),
+        "date": (np.datetime64(1, "ns"), "must be a number"),
     }
     RIGHT = (0.25, fractions.Fraction(1, 4), np.float32(0.25), np.float64(0.25), np.longdouble(0.25), np.array(0.25),
              np.array([0.25]))
@@ -90,6 +92,13 @@ class Numbers(Case):
                 for call in calls:
                     with self.subTest(what, field=field):
                         self.refused(lambda: call(value), field, words)
+
+    def test_arrays_of_times_are_no_numbers(self):
+        for times in (pandas.to_timedelta([1, 2], unit="s"), pandas.to_datetime([1, 2], unit="s"),
+                      np.array([1, 2], "m8[s]")):
+            for given in (times, times.to_series() if hasattr(times, "to_series") else times, np.asarray(times)):
+                with self.subTest(str(times.dtype), holder=type(given).__name__):
+                    self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: given}, NEWTON), f"{MU}[0]", "must be a number")
 
     def test_every_holder_of_one_number_is_taken_for_it(self):
         expected = ricochet.solve({**PENDULUM, "friction": {"kinetic_coefficient": 0.25}})
@@ -365,6 +374,16 @@ class ShortNames(Case):
                     with self.assertRaises(ricochet.InvalidRequest) as raised:
                         ricochet.read_scene(path)
                     self.assertEqual(printed.stderr.strip(), f"ricochet: INVALID_ARGUMENT: {raised.exception}")
+
+    def test_any_bytes_may_stand_in_comments_and_names_of_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(os.fsencode(folder), b"\xff.textproto")
+            Path(os.fsdecode(path)).write_bytes(b"# \xe9\npendulum { inertia_kg_m2: 1 a_m: 1 omega_minus_rad_s: -1 }")
+            self.assertEqual(ricochet.read_scene(path), ricochet.read_scene(os.fsdecode(path)))
+            self.assertEqual(command_line("scene", "print", "--scene", os.fsdecode(path)).returncode, 0)
+            Path(os.fsdecode(path)).write_bytes(b"pendulum { a_m: \xe9 }")
+            with self.assertRaisesRegex(ricochet.InvalidRequest, "is not a ricochet.v1.Scene"):
+                ricochet.read_scene(path)
 
     def check_names(self, path, known, listed, what):
         """Every end of a listed path means that path here exactly if the command line takes it for that path."""

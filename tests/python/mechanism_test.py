@@ -219,6 +219,8 @@ class Batches(Case):
         self.assertFalse(np.array_equal(product, np.swapaxes(product, 1, 2)))
         after = ricochet.at_contact(product, jacobian, rates, normal, friction=0.3, energetic=0.7)
         self.assertTrue(np.isfinite(after.rates_after).all())
+        listed = ricochet.at_contact(list(product), jacobian, rates, normal, friction=0.3, energetic=0.7)
+        np.testing.assert_array_equal(listed.rates_after, after.rates_after)
         with self.assertRaises(ricochet.InvalidRequest):
             ricochet.at_contact(
                 product[0].astype(float), jacobian[0], rates[0], normal[0], friction=0.3, energetic=0.7)

@@ -251,6 +251,11 @@ class BoundsAndAudits(unittest.TestCase):
         body = {"planar_body": {"mass_kg": 1, "inertia_com_kg_m2": 1, "velocity_n_m_s": -1}}
         table = ricochet.audit_batch(body, {"rates_after": [0.0, [0.5, 0.25], 0.0]})
         np.testing.assert_allclose(table["coefficients.newton"], [0.5, 0.25], rtol=1e-14)
+        names = [f"bodies_after[0].{name}" for name in ("linear_m_s[0]", "linear_m_s[1]", "angular_rad_s[0]")]
+        named = dict(zip(names, (0.0, [0.5, 0.25], 0.0)))
+        self.assertEqual(ricochet.audit_batch(body, named), table)
+        with self.assertRaisesRegex(ricochet.InvalidRequest, r"must have bodies_after\[0\].angular_rad_s\[0\], too"):
+            ricochet.audit_batch(body, {name: named[name] for name in names[:2]})
         table = ricochet.audit_batch(contact, {"mu": [0.5, 0.5], "normal_m_s": -2.0, "normal_after_m_s": 0.5,
                                                "tangential_after_m_s": 0.0})
         np.testing.assert_allclose(table["coefficients.newton"], 0.25, rtol=1e-14)

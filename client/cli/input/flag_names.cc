@@ -28,7 +28,8 @@ bool HasFlagsForScene(const CLI::App& command) {
          !IsGiven(command, "--request");
 }
 
-// The flags that set fields of requests, by how their paths begin.
+// The flags that set fields of requests, by how their paths begin. One that ends with "[" has one entry for each text;
+// a name of columns may stand for several.
 constexpr std::pair<const char*, const char*> kRequestFlags[] = {{"relative_tolerance", "--tolerance"},
                                                                  {"required[", "--require"},
                                                                  {"excluded[", "--exclude"},
@@ -40,7 +41,7 @@ constexpr std::pair<const char*, const char*> kRequestFlags[] = {{"relative_tole
                                                                  {"outputs[", "--function"},
                                                                  {"axes[", "--axis"},
                                                                  {"ranges[", "--range"},
-                                                                 {"columns[", "--column"},
+                                                                 {"columns", "--column"},
                                                                  {"derivatives.of[", "--derivatives"},
                                                                  {"derivatives.by[", "--by"},
                                                                  {"unknowns[", "--unknown"},

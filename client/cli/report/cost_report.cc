@@ -112,14 +112,14 @@ CsvRow CsvRowOf(const CostChunk& study, size_t index, bool on_front) {
   csv.Number("method.stiffness", row.method.stiffness);
   AddTime("solve", row.solve, csv);
   AddTime("batch", row.batch, csv);
-  csv.Integer("batch_in_lanes", row.batch_in_lanes);
+  csv.Truth("batch_in_lanes", row.batch_in_lanes);
   AddError("claimed", row.status == CostStatus::kMeasured ? std::optional(row.claimed) : std::nullopt, csv);
   AddError("achieved", row.achieved, csv);
   csv.Number("reference_error", row.reference_error);
-  csv.Integer("deceived", row.ClaimIsBroken());
+  csv.Truth("deceived", row.ClaimIsBroken());
   csv.Integer("steps", row.steps);
   csv.Integer("right_hand_sides", row.right_hand_sides);
-  csv.Integer("on_front", on_front);
+  csv.Truth("on_front", on_front);
   csv.Quoted("picked_for_tolerances", absl::StrJoin(picked, "; "));
   csv.Quoted("note", row.note);
   return csv;

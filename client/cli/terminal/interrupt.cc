@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -18,11 +19,20 @@ constexpr std::chrono::milliseconds kRepeated(500);
 
 std::atomic<bool> happened = false;
 
+constexpr std::array kSignals = {SIGINT, SIGTERM};
+
+// A shell ignores Ctrl-C for a program that it starts in the background.
+bool IsIgnored(int number) {
+  struct sigaction action = {};
+  return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 sigset_t Watched() {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
+  for (const int number : kSignals) {
+    if (!IsIgnored(number)) sigaddset(&signals, number);
+  }
   return signals;
 }
 
@@ -39,9 +49,8 @@ void Interrupt::EndAtSignals() {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof(kText) - 1);
     _exit(kInterruptedExitCode);
   };
-  for (const int number : {SIGINT, SIGTERM}) {
-    // A shell ignores Ctrl-C for a program that it starts in the background.
-    if (std::signal(number, end) == SIG_IGN) std::signal(number, SIG_IGN);
+  for (const int number : kSignals) {
+    if (!IsIgnored(number)) std::signal(number, end);
   }
 }
 

@@ -20,6 +20,9 @@ enum class Spelling { kNumber, kAngle };
 // breaks none.
 std::string ReadNumber(const std::string& text, Spelling spelling, double& value);
 
+// The first angle beyond a full turn that was read without "deg"; empty if none was.
+const std::string& LargeAngleRead();
+
 // Reads a number. `what` names the input in the error. Errors: INVALID_ARGUMENT, here and below.
 absl::StatusOr<double> ParseNumber(const std::string& text, const std::string& what,
                                    Spelling spelling = Spelling::kNumber);

@@ -8,7 +8,7 @@ namespace ricochet {
 // The numbers are those of ricochet.v1.Regime.
 enum class Regime {
   kUnspecified = 0,
-  kFrictionless = 1,           // x = mu |b|/a = 0: no tangential coupling, the three coefficients are equal.
+  kFrictionless = 1,           // No friction is possible or needed, or the plan leaves it out: e_N = e_P = e_E.
   kRebound = 2,                // Pendulum, 0 < x < 1: slip reverses where compression ends.
   kSliding = 3,                // Slip never stops. In a plane it keeps its direction; in space it may turn.
   kStickInCompression = 4,     // Slip stops in compression and the contact sticks.

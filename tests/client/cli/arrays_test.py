@@ -5,6 +5,7 @@ usage: arrays_test.py RICOCHET WORK_DIRECTORY
 import csv
 import os
 import pathlib
+import subprocess
 import unittest
 from unittest import mock
 
@@ -12,7 +13,7 @@ import netCDF4
 import numpy
 import xarray
 
-from ricochet_case import RicochetCase, WORK, ricochet
+from ricochet_case import RICOCHET, RicochetCase, WORK, ricochet
 
 MU, PHI = "friction.kinetic_coefficient", "pendulum.phi_rad"
 RATE, WORK_DONE = "rates_after_rad_s[0]", "work.normal_total_j"
@@ -52,6 +53,16 @@ class ArraysTest(RicochetCase):
                 [names[i] for i in data["status"].values.ravel()], [text.split(":")[0] for text in rows["status"]])
             # An angle picks the curve over the other axes.
             self.assertFalse(numpy.isnan(data[RATE].sel({PHI: 0.8, MU: 0.2}, method="nearest")).any())
+
+    def test_no_file_gets_what_is_written_to_a_closed_standard_error(self):
+        for name in ("rows.csv", "rows.json", "rows.jsonl", "rows.npy", "rows.nc"):
+            with self.subTest(name):
+                self.made(*GRID, "--regime", "-o", f"open.{name}")
+                for closed in ((2,), (0, 2), (0, 1, 2)):
+                    code = subprocess.run([RICOCHET, *GRID, "--regime", "-o", name], cwd=WORK, check=False,
+                                          preexec_fn=lambda: [os.close(number) for number in closed]).returncode
+                    self.assertEqual(code, 0)
+                    self.assertEqual((WORK / name).read_bytes(), (WORK / f"open.{name}").read_bytes())
 
     def test_an_axis_has_the_values_of_numpy(self):
         random = numpy.random.default_rng(1)

@@ -275,6 +275,7 @@ std::vector<BadInput> Sweeps() {
       {Plus(kSweep, {"--column", "coefficients.elastic"}),
        "columns[0] = \"coefficients.elastic\": must be a column of the scene", ""},
       {Plus(kSweep, {"--column", "energy_change_j,energy_change_j"}), "columns[1]", ""},
+      {Plus(kSweep, {"--column", "coefficients.*,energy_change_j,energy_change_j"}), "--column: columns[5]", ""},
       {Plus(kSweep, {"--column", "normal_total"}),
        "--column normal_total: must name one of\n  impulse.normal_total_n_s\n  work.normal_total_j\n", ""},
       {Plus(kSweep, {"--threads", "0"}), "--threads = 0: must be a whole number from 1 to 1024", ""},

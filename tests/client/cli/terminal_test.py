@@ -121,6 +121,20 @@ class Terminal(RicochetCase):
                 for stream in (process.stdin, process.stdout, process.stderr):
                     stream.close()
 
+    def test_a_program_in_the_background_ignores_ctrl_c_in_every_command(self):
+        short = [*SWEEP, "--axis", AXIS + "1e6", "--format", "csv"]
+        for arguments in (["solve", "--scene", "-"], short):
+            with self.subTest(command=arguments[0]):
+                process = subprocess.Popen([RICOCHET, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE,
+                                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+                while not watches(process.pid, signal.SIGTERM):
+                    time.sleep(0.01)
+                process.send_signal(signal.SIGINT)
+                scene = b"pendulum { inertia_kg_m2: 1 a_m: 1 omega_minus_rad_s: -1 } restitution { newton: 1 }"
+                process.communicate(scene if arguments is not short else None, timeout=120)
+                self.assertEqual(process.returncode, 0)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -131,6 +131,23 @@ TEST(HardMultiContactTest, ABallInASlotComesToRest) {
   EXPECT_NEAR(springs.v(1), 0.0, springs.ErrorOf(slot, 1) + 1e-12);
 }
 
+// Errors that grow with each of some hundred impacts, until they exceed all there is, are not stated.
+TEST(HardMultiContactTest, AnErrorBeyondAllEnergyIsUnknown) {
+  const MultiContactRequest request = {
+      .scene = {.system = FreeBodies{.bodies = {FreeBody{.mass_kg = 0.5,
+                                                         .inertia_com_kg_m2 = {0.0002},
+                                                         .position_m = {0.0, 0.0},
+                                                         .linear_m_s = {2.0, 0.3}}}},
+                .contacts = {{.energetic = 0.8, .body = 1, .point_m = {-0.03, 0.0}, .normal = {1.0, 0.0}},
+                             {.energetic = 0.8, .body = 1, .point_m = {0.03, 0.0}, .normal = {-1.0, 0.0}}}}};
+  const MultiContactResponse response = *LocalSolver().MultiContact(request);
+  ASSERT_TRUE(response.answers[0].springs.has_value());
+  const AttainedOutcome& springs = *response.answers[0].springs;
+  EXPECT_NEAR(springs.impulse_n_s[1], 4.0, 1e-9);  // The sum of a geometric series.
+  EXPECT_TRUE(springs.normal_impulse_error_n_s.empty());
+  EXPECT_TRUE(std::isinf(springs.work_error_j));
+}
+
 // The condition for a sequence without end holds with equality in a slot, which no rounding may decide.
 TEST(HardMultiContactTest, EverySlotHasAProvedLimit) {
   for (int i = 1; i < 20; ++i) {

@@ -305,7 +305,6 @@ std::vector<Note> NotesOf(const Scene& scene, const DemandFields& demand = {}) {
   return response->outcome.notes;
 }
 
-// Without friction the energetic coefficient is 1; with it, 1.0307 by arbitrary precision.
 // No verdict of a coarse plan that the whole impact refutes lacks the note.
 TEST(VerdictNoteTest, StandsWhereverAnAdmissibleOutcomeIsNone) {
   RandomScenes random(5);
@@ -327,6 +326,7 @@ TEST(VerdictNoteTest, StandsWhereverAnAdmissibleOutcomeIsNone) {
   EXPECT_GT(turned, 20);
 }
 
+// Without friction the energetic coefficient is 1; with it, 1.0307 by arbitrary precision.
 TEST(NotesTest, AVerdictThatWhatIsLeftOutMayTurnSaysSo) {
   const Scene scene = {
       .system = PlanarContact{0.7864519654934002, 0.939606137701005, 12.554953596343825, -0.18993242225129414,
@@ -355,6 +355,23 @@ TEST(NotesTest, AnAnswerWithoutTheDurationOfASpringSaysHowToAskForIt) {
   Scene away = OnALinearSpring();
   std::get<PlanarBody>(away.system).velocity_n_m_s = 3.0;
   EXPECT_THAT(NotesOf(away), IsEmpty());
+}
+
+// The contact swings about a hundred times along its fast direction while it parts along the slow one.
+TEST(NotesTest, AnImpactInTimeWithoutAnEndSaysThatTheModelWithoutTimeMayHaveOne) {
+  const Scene scene = {
+      .system = PlanarContact{1282.1704270420028, 50.36621089503721, 1.9784902846306676, 0.0, -0.4469545709171959},
+      .friction = {.kinetic_coefficient = 0.051586061716826476},
+      .restitution = EnergeticCoefficient{1.0},
+      .compliance =
+          Compliance{.tangential_ratio_squared = 0.01744040985665638, .normal = LinearSpring{18118.50074304144}}};
+  const std::vector<Note> notes = NotesOf(scene, {.relative_tolerance = 1e-3, .required = {Effect::kFiniteDuration}});
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].path, "regime");
+  EXPECT_THAT(notes[0].text, HasSubstr("--exclude finite-duration"));
+  const auto without = LocalSolver().Solve({.scene = scene, .demand = {.excluded = {Effect::kFiniteDuration}}});
+  EXPECT_EQ(without->outcome.regime, Regime::kStickInCompression);
+  EXPECT_NEAR(without->outcome.contact_velocity_after.normal_m_s, 0.44694, 1e-5);
 }
 
 TEST(NotesTest, AnAngleBeyondAFullTurnIsNotedWithItsRadians) {

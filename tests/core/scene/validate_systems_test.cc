@@ -266,8 +266,7 @@ std::vector<BadScene> BadEffects() {
          s.restitution = NewtonCoefficient{0.5};
          s.compliance = Ratio();
        }),
-       "restitution.coefficient",
-       "is not energetic: must be, with compliance, unless W_tn is 0 and all three are the same"},
+       "restitution.newton", "is not energetic: must be, with compliance, unless W_tn is 0 and all three are the same"},
       {"NewtonAboveOneOnASpring",
        [] {
          Scene scene = With(PlanarContact{2.0, 0.0, 1.0, 1.0, -1.0});
@@ -275,13 +274,13 @@ std::vector<BadScene> BadEffects() {
          scene.compliance = Ratio();
          return scene;
        },
-       "restitution.coefficient", "is above 1: must be in [0, 1], with compliance"},
+       "restitution.newton", "is above 1: must be in [0, 1], with compliance"},
       {"ChatterWithoutRestitution", Beside([](Scene& s) {
          s.friction.kinetic_coefficient = 2.0;
          s.restitution = EnergeticCoefficient{0.0};
          s.compliance = Ratio();
        }),
-       "restitution.coefficient",
+       "restitution.energetic",
        "is 0: must be > 0, with a tangential compliance and friction that reaches W_nn/|W_tn|"},
       {"GravityOnAContact", Beside([](Scene& s) {
          s.finite_forces = Gravity{0.0, -9.81};
