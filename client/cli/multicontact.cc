@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/make_solver.h"
+#include "client/cli/input/mechanism_file.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/plot/picture_input.h"
 #include "client/cli/program.h"
@@ -34,6 +36,7 @@ Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 struct MultiContactOptions {
   CommonOptions common;
   std::string scene;
+  std::string mechanism, friction, energetic;
   std::vector<std::string> methods;
   std::vector<std::string> states;
   std::vector<std::string> outputs;
@@ -72,10 +75,44 @@ absl::StatusOr<StiffnessRange> ReadRange(const std::string& text) {
   return range;
 }
 
-absl::StatusOr<MultiContactRequest> ReadRequest(const MultiContactOptions& options) {
+// Reads a mechanism, and the coefficients of its contacts.
+absl::StatusOr<MultiContactScene> SceneOfMechanism(const MultiContactOptions& options) {
+  if (options.friction.empty() || options.energetic.empty()) {
+    return absl::InvalidArgumentError("--mechanism needs --mu and --energetic, with a number for each contact");
+  }
+  const absl::StatusOr<std::vector<double>> friction = ParseNumbers(options.friction, "--mu");
+  if (!friction.ok()) return friction.status();
+  const absl::StatusOr<std::vector<double>> energetic = ParseNumbers(options.energetic, "--energetic");
+  if (!energetic.ok()) return energetic.status();
+  if (energetic->size() != friction->size()) {
+    return InputError("--energetic", options.energetic, absl::StrCat("be as many as --mu, ", friction->size()));
+  }
+  absl::StatusOr<Mechanism> mechanism = ReadMechanism(options.mechanism, static_cast<int64_t>(friction->size()));
+  if (!mechanism.ok()) return mechanism.status();
+  MultiContactScene scene = {.system = *std::move(mechanism)};
+  for (size_t i = 0; i < friction->size(); ++i) {
+    scene.contacts.push_back({.friction = (*friction)[i], .energetic = (*energetic)[i]});
+  }
+  return scene;
+}
+
+absl::StatusOr<MultiContactScene> ReadScene(const MultiContactOptions& options) {
+  if (options.scene.empty() == options.mechanism.empty()) {
+    return absl::InvalidArgumentError("needs --scene FILE or --mechanism FILE.npz, and not both");
+  }
+  if (!options.mechanism.empty()) return SceneOfMechanism(options);
+  if (!options.friction.empty() || !options.energetic.empty()) {
+    return absl::InvalidArgumentError("--mu and --energetic need --mechanism FILE.npz; a scene states its own");
+  }
   v1::MultiContactScene scene;
   if (absl::Status status = ReadMessage(options.scene, scene); !status.ok()) return status;
-  MultiContactRequest request = {.scene = FromProto(scene)};
+  return FromProto(scene);
+}
+
+absl::StatusOr<MultiContactRequest> ReadRequest(const MultiContactOptions& options) {
+  absl::StatusOr<MultiContactScene> scene = ReadScene(options);
+  if (!scene.ok()) return scene.status();
+  MultiContactRequest request = {.scene = *std::move(scene)};
   for (const std::string& name : options.methods) {
     const absl::StatusOr<MultiContactMethod> method = ReadMethod(name);
     if (!method.ok()) return method.status();
@@ -138,8 +175,15 @@ void AddMultiContact(CLI::App& app, Command& command) {
   MarkFile(FileUse::kRead,
            sub->add_option("--scene", options->scene,
                            "A ricochet.v1.MultiContactScene as JSON or textproto; - for standard input"))
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
+  MarkFile(FileUse::kRead,
+           sub->add_option("--mechanism", options->mechanism,
+                           "A mechanism as numpy.savez writes it: arrays M (n x n), J with rows t, n or t1, t2, n for "
+                           "each contact, and qdot (n)"))
+      ->type_name("FILE.npz");
+  sub->add_option("--mu", options->friction, "Friction of each contact of the mechanism")->type_name("MU,...");
+  sub->add_option("--energetic", options->energetic, "Energetic coefficient of each contact of the mechanism")
+      ->type_name("E,...");
   AddList(*sub, "--method", options->methods, "What to compute: orders, springs, possible [all that the scene allows]")
       ->type_name("NAME,...");
   AddRepeatable(*sub, "--state", options->states,

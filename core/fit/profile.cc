@@ -160,9 +160,9 @@ class Ray {
     return Adopt(distance, least);
   }
 
-  // Sees whether a place outside is inside if the other unknowns start elsewhere: where they ended inside last, which is
-  // nearer now than when the place was looked at, or where they fit best of many places. If so, it is the new place
-  // inside.
+  // Sees whether a place outside is inside if the other unknowns start elsewhere: near where they ended inside last,
+  // which is closer now than when the place was looked at, or where they fit best of many places. If so, it is the new
+  // place inside.
   bool GoesOn(const RayPoint& outside, RayPoint& inside) {
     if (!HasFree()) return false;
     const auto is_inside_from = [&](const std::vector<double>& start) {

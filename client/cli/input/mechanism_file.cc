@@ -133,7 +133,17 @@ std::string ShapeText(const std::vector<int64_t>& shape) {
   return absl::StrCat("(", absl::StrJoin(shape, ", "), shape.size() == 1 ? ",)" : ")");
 }
 
-absl::StatusOr<Mechanism> Read(const std::string& path) {
+// Returns what the shape of J must be.
+std::string ShapeOfJacobian(int64_t n, int64_t contacts, bool has_more_rows) {
+  if (contacts > 1) {
+    return absl::StrCat("be (", 2 * contacts, ", ", n, ") with rows t, n for each of the ", contacts, " contacts or (",
+                        3 * contacts, ", ", n, ") with rows t1, t2, n");
+  }
+  return absl::StrCat("be (2, ", n, ") with rows t, n or (3, ", n, ") with rows t1, t2, n",
+                      has_more_rows ? "; `ricochet multicontact --mechanism` takes several contacts" : "");
+}
+
+absl::StatusOr<Mechanism> Read(const std::string& path, int64_t contacts) {
   const absl::StatusOr<Archive> archive = Open(path);
   if (!archive.ok()) return archive.status();
   Mechanism mechanism;
@@ -154,19 +164,17 @@ absl::StatusOr<Mechanism> Read(const std::string& path) {
   if (!status.ok()) return status;
   const absl::StatusOr<Array> jacobian = ReadArray(archive->get(), "J");
   if (!jacobian.ok()) return jacobian.status();
-  status = check("J", *jacobian, jacobian->shape == Shape{2, n} || jacobian->shape == Shape{3, n},
-                 absl::StrCat("be (2, ", n, ") with rows t, n or (3, ", n, ") with rows t1, t2, n",
-                              !jacobian->shape.empty() && jacobian->shape[0] > 3
-                                  ? "; `ricochet multicontact --scene` takes several contacts"
-                                  : ""));
+  const Shape& shape = jacobian->shape;
+  status = check("J", *jacobian, shape == Shape{2 * contacts, n} || shape == Shape{3 * contacts, n},
+                 ShapeOfJacobian(n, contacts, !shape.empty() && shape[0] > 3));
   if (!status.ok()) return status;
   return Mechanism{.mass_matrix = mass->numbers, .jacobian = jacobian->numbers, .rates = rates->numbers};
 }
 
 }  // namespace
 
-absl::StatusOr<Mechanism> ReadMechanism(const std::string& path) {
-  absl::StatusOr<Mechanism> mechanism = Read(path);
+absl::StatusOr<Mechanism> ReadMechanism(const std::string& path, int64_t contacts) {
+  absl::StatusOr<Mechanism> mechanism = Read(path, contacts);
   if (mechanism.ok()) return mechanism;
   return absl::InvalidArgumentError(absl::StrCat(path, ": ", mechanism.status().message()));
 }

@@ -77,12 +77,12 @@ absl::StatusOr<Scene> PendulumFromFlags(const SceneOptions& options) {
 absl::StatusOr<Scene> MechanismFromFlags(const SceneOptions& options) {
   absl::StatusOr<Mechanism> mechanism = ReadMechanism(options.mechanism);
   if (!mechanism.ok()) return mechanism.status();
-  constexpr int64_t kMostCoordinates = 1'000'000;
+  const auto coordinates = static_cast<int64_t>(mechanism->rates.size());
   for (const std::string& kept : options.kept) {
     const absl::StatusOr<int64_t> coordinate = ParseCount(kept, "--keep");
     if (!coordinate.ok()) return coordinate.status();
-    if (*coordinate < 0 || *coordinate > kMostCoordinates) {
-      return InputError("--keep", kept, absl::StrCat("be in [0, ", kMostCoordinates, "]"));
+    if (*coordinate < 0 || *coordinate >= coordinates) {
+      return InputError("--keep", kept, absl::StrCat("be in [0, ", coordinates, ")"));
     }
     mechanism->kept_coordinates.push_back(static_cast<int32_t>(*coordinate));
   }

@@ -50,12 +50,32 @@ class MechanismTest(RicochetCase):
         held = self.outcome(*self.saved("held.npz"), "--keep", "1,2", "--both-ends")
         self.assertEqual(held["rates_after"][1:], QDOT[1:].tolist())
         self.assertEqual(self.outcome(*self.saved("held.npz"), "--keep", "0")["rates_after"][0], QDOT[0])
-        self.assertIn("must be in [0, 1000000]", self.refused(*self.saved("held.npz"), "--keep=-1"))
+        self.assertIn("must be in [0, 3)", self.refused(*self.saved("held.npz"), "--keep=-1"))
         self.assertEqual(held["free_end"]["rates_after"], self.outcome(*self.saved("free.npz"))["rates_after"])
         text = self.made(*self.saved("held.npz"), "--keep", "1,2", "--both-ends")
         for part in ("Mechanism after", "momentum taken", "rate, none held", "Both ends", "With nothing held:"):
             self.assertIn(part, text)
         self.assertIn("both_ends", self.refused(*self.saved("free.npz"), "--both-ends"))
+
+    def test_several_contacts_are_the_scene_with_their_numbers(self):
+        both = numpy.vstack([J[:2], J[1:]])
+        numpy.savez(WORK / "feet.npz", M=M, J=both, qdot=QDOT)
+        (WORK / "feet.json").write_text(json.dumps({
+            "mechanism": {"mass_matrix": M.tolist(), "jacobian": both.tolist(), "rates": QDOT.tolist()},
+            "contacts": [{"friction": 0.3, "energetic": 0.5}, {"friction": 0.4, "energetic": 0.25}]}))
+        feet = ["multicontact", "--mechanism", "feet.npz"]
+        law = ["--mu", "0.3,0.4", "--energetic", "0.5,0.25"]
+        self.assertEqual(self.made(*feet, *law, "--format", "json"),
+                         self.made("multicontact", "--scene", "feet.json", "--format", "json"))
+        for arguments, words in [
+                ([*feet, "--mu", "0.3,0.4"], "--mechanism needs --mu and --energetic"),
+                ([*feet, "--mu", "0.3,0.4", "--energetic", "0.5"], "--energetic = 0.5: must be as many as --mu, 2"),
+                ([*feet, "--mu", "1,1,1", "--energetic", "0,0,0"], "must be (6, 3) with rows t, n for each of the 3"),
+                (["multicontact", "--scene", "feet.json", "--mu", "1"], "--mu and --energetic need --mechanism"),
+                (["multicontact"], "needs --scene FILE or --mechanism FILE.npz, and not both"),
+                ([*feet, *law, "--scene", "feet.json"], "needs --scene FILE or --mechanism FILE.npz, and not both")]:
+            with self.subTest(words):
+                self.assertIn(words, self.refused(*arguments))
 
     def test_archives_that_lack_something_are_refused_in_words(self):
         rates = {"M": M, "J": J}
@@ -64,7 +84,7 @@ class MechanismTest(RicochetCase):
                 (["solve", "--mechanism", "lacks.npz"], "has no array qdot but M.npy, J.npy: must have M, J and qdot"),
                 (self.saved("shape.npz", M=M[:2]), "M has the shape (2, 3): must be (3, 3) for the 3 of qdot"),
                 (self.saved("rows.npz", J=J[:1]), "J has the shape (1, 3): must be (2, 3) with rows t, n or (3, 3)"),
-                (self.saved("feet.npz", J=numpy.vstack([J, J])), "; `ricochet multicontact --scene` takes several contacts"),
+                (self.saved("feet.npz", J=numpy.vstack([J, J])), "; `ricochet multicontact --mechanism` takes several contacts"),
                 (self.saved("column.npz", qdot=QDOT[:, None]), "qdot has the shape (3, 1): must be (n,)"),
                 (self.saved("complex.npz", M=M + 0j), "M has the type <c16: must be float64"),
                 (self.saved("big.npz", M=M.astype(">f8")), "M has the type >f8: must be float64"),

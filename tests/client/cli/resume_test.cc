@@ -64,7 +64,9 @@ TEST_P(CliResume, ATornEndIsCutOff) {
 }
 
 TEST_P(CliResume, CtrlCShowsTheCommandThatGoesOn) {
-  const CliResult stopped = RunShell(Started() + " & pid=$!\n" + kUntilPoints + "kill -INT $pid; wait $pid");
+  // The shell would let a program in the background ignore the signal.
+  const CliResult stopped =
+      RunShell("env --default-signal=INT " + Started() + " & pid=$!\n" + kUntilPoints + "kill -INT $pid; wait $pid");
   EXPECT_EQ(stopped.exit_code, 130);
   EXPECT_THAT(stopped.err, HasSubstr("ricochet: interrupted"));
   const size_t command = stopped.err.find("\n  ");
@@ -213,7 +215,7 @@ TEST_F(CliWhole, AFileThatIsReplacedKeepsItsMode) {
 
 TEST_F(CliWhole, AnInterruptedTableLeavesNoFile) {
   for (const std::string signal : {"INT", "TERM"}) {
-    const CliResult result = RunShell("timeout --preserve-status -s " + signal + " 0.5 " +
+    const CliResult result = RunShell("env --default-signal=INT timeout --preserve-status -s " + signal + " 0.5 " +
                                       Sweep("text", "-o result --summary-only", "1e12"));
     EXPECT_EQ(result.exit_code, 130);
     EXPECT_THAT(result.err, Not(HasSubstr("--resume")));
