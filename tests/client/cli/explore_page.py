@@ -107,6 +107,15 @@ class ExplorePageTest(unittest.TestCase):
             self.browser.command("Input.dispatchKeyEvent", type=kind, key=name, code=name,
                                  windowsVirtualKeyCode={"Tab": 9, "ArrowRight": 39}[name])
 
+    def rows(self, table):
+        """The texts of the cells of a table."""
+        return self.browser.script(
+            f"return [...document.querySelectorAll('#{table} tr')].map(r => [...r.children].map(c => c.textContent))")
+
+    def assert_holds(self, shown_range, shown):
+        low, high = map(number, shown_range.split(" … "))
+        self.assertTrue(low <= number(shown) <= high, (shown_range, shown))
+
     def assert_shows_the_answer_of_its_scene(self):
         scene = DIRECTORY / "copied.textproto"
         self.browser.script("[...document.querySelectorAll('#forms button')].find(b => b.textContent == 'textproto').click()")
@@ -123,6 +132,9 @@ class ExplorePageTest(unittest.TestCase):
             shown = self.browser.script(f"return document.querySelector('input[value={law}] ~ b').textContent")
             exact = solved["coefficients"][law]
             self.assertAlmostEqual(number(shown), exact, delta=abs(exact) * 1e-4)
+        for _, here, *ranges in self.rows("possible")[:3] if solved["admissible"] else []:
+            for one in ranges if "–" not in ranges else ranges[:1]:
+                self.assert_holds(one, here)
         change = self.browser.script("return [...document.querySelectorAll('#energy .strong')].at(-1).textContent")
         self.assertAlmostEqual(number(change), solved["energy_change_j"], delta=abs(solved["energy_change_j"]) * 1e-2)
 
@@ -143,8 +155,10 @@ class ExplorePageTest(unittest.TestCase):
         self.browser.script("[...document.querySelectorAll('#forms button')].find(b => b.textContent == 'textproto').click()")
         scene.write_text(self.browser.script("return document.getElementById('copied').value"), encoding="utf-8")
         answer = json.loads(ricochet("multicontact", "--scene", str(scene), "--format", "json"))["answers"][0]
-        rows = self.browser.script(
-            "return [...document.querySelectorAll('#several tr')].map(r => [...r.children].map(c => c.textContent))")
+        rows = self.rows("several")
+        for i in (1, 2, 3):
+            for row in rows[:-1]:
+                self.assert_holds(rows[-1][i], row[i])
         exact = {one["orders"][0]: one["velocity"] for one in answer["orders"]}
         return ({name: [number(text) for text in texts[:3]] for name, *texts in rows if name != "possible"},
                 {**exact, "springs": answer["springs"]["velocity"]})
@@ -169,8 +183,9 @@ class ExplorePageTest(unittest.TestCase):
         self.drag("#spread .handle", 60, 0)
         stiffer = self.assert_shows_the_outcomes_of_its_scene()["springs"][2]
         self.assertGreater(stiffer, 0.05)
-        self.open("box_on_two_feet", 400, "dark")
-        self.assertEqual(self.browser.script("return document.documentElement.scrollWidth"), 400)
+        for width in (320, 400):
+            self.open("box_on_two_feet", width, "dark")
+            self.assertEqual(self.browser.script("return document.documentElement.scrollWidth"), width)
         self.assertEqual(self.browser.script(CUT_OFF) + self.browser.script(CUT_OFF_IN_PICTURES), [])
         self.browser.screenshot(DIRECTORY / "explore-box-400-dark.png")
         self.browser.script("document.querySelector('[data-at=pendulum]').click()")
