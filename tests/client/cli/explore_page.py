@@ -19,7 +19,7 @@ from browser import Browser, CUT_OFF, CUT_OFF_IN_PICTURES, SMALLEST_TEXT
 DIRECTORY, RICOCHET = [Path(sys.argv.pop()).resolve() for _ in range(2)]
 SCENES = ["pendulum", "planar_body", "spatial_body", "body_pair", "linkage", "planar_contact"]
 LEAST_TEXT_PX = 10
-SETTLED = "return document.getElementById('verdict').ariaBusy !== 'true' && document.querySelector('#motion tr, #several tr')"
+SETTLED = "return document.getElementById('verdict').ariaBusy !== 'true' && !isAsking"
 
 # Counts the calls of each kind that are under way, from before the first one.
 COUNT_CALLS = """
@@ -346,6 +346,33 @@ class ExplorePageTest(unittest.TestCase):
         self.assertEqual(self.text("#motion") + self.text("#possible") + self.text("#simulator"), "")
         for picture in ("course", "energy", "over"):
             self.assertEqual(self.text(f"#{picture} .layer"), "There is no answer for this scene.")
+
+    def test_a_field_without_a_number_is_marked_and_has_no_verdict(self):
+        for scene, field, label in (("pendulum", "pendulum.a_m", "a, tip beside pin"),
+                                    ("box_on_two_feet", "contacts[1].friction", "contact 2: friction μ")):
+            for typed in ("", "1e", "-", "--1"):
+                self.open(scene)
+                self.browser.script(f"inputs['{field}'].number.focus(); inputs['{field}'].number.select()")
+                for letter in typed or ["\b"]:
+                    self.browser.command("Input.dispatchKeyEvent", type="keyDown", windowsVirtualKeyCode=8 if not typed
+                                         else 0, text=letter if typed else "")
+                self.browser.script(f"inputs['{field}'].number.blur()")
+                self.settle()
+                self.assertEqual(self.text("#sentence"), f"There is no number in: {label}.", typed)
+                self.assertEqual(self.text("#leaves") + self.text("#state") + self.text("#motion") + self.text("#several"),
+                                 "")
+                self.assertEqual(self.browser.script("return $('verdict').className"), "bad")
+                marked = "return [...document.querySelectorAll('[aria-invalid=true]')].length"
+                self.assertEqual(self.browser.script(marked), 1)
+                self.assertNotIn("NaN", self.browser.script("return location.hash + $('copied').value"))
+            # Any control that sets the number ends this.
+            self.browser.script(f"inputs['{field}'].slider.value = 0.5;"
+                                f"inputs['{field}'].slider.dispatchEvent(new Event('input'));")
+            self.settle()
+            self.assertEqual(self.browser.script(f"return [inputs['{field}'].number.value, ...[{marked[7:]}]]"),
+                             ["0.5", 0])
+            self.assertTrue(self.text("#state").startswith("✓"))
+        self.assertEqual(self.browser.console(), [])
 
     def test_numbers_that_are_zero_have_controls(self):
         self.browser.open("about:blank")
