@@ -66,7 +66,7 @@ struct Asking {
                         answer.ok() ? *answer : ErrorJson(answer.status()), "}");
   }
 
-  // Asks for the coefficients of restitution over friction, from 0 to at least 2.
+  // Asks for the coefficients of restitution and the effective friction over the stated one, from 0 to at least 2.
   std::string Curves(const char* name, const Scene& of) const {
     const double most = std::max(2.0, 1.25 * of.friction.kinetic_coefficient);
     std::vector<double> mu;
@@ -74,8 +74,9 @@ struct Asking {
     const std::string bytes(reinterpret_cast<const char*>(mu.data()), mu.size() * sizeof(double));
     return Json(name, "SolveBatch",
                 absl::StrCat(R"({"setup":{"fields":["friction.kinetic_coefficient"],"columns":[)",
-                             R"("coefficients.newton","coefficients.poisson","coefficients.energetic"],)",
-                             R"("scene":)", SceneJson(of), R"(},"inputs":[")", absl::Base64Escape(bytes), R"("]})"));
+                             R"("coefficients.newton","coefficients.poisson","coefficients.energetic",)",
+                             R"("effective.kinetic"],)", R"("scene":)", SceneJson(of), R"(},"inputs":[")",
+                             absl::Base64Escape(bytes), R"("]})"));
   }
 
   // These depend on the coefficient that the scene states, and are none without one.
@@ -84,6 +85,7 @@ struct Asking {
   std::string operator()(const Coefficient& stated) const {
     Scene elastic = scene, by_newton = scene;
     elastic.restitution = EnergeticCoefficient{1.0};
+    elastic.restitution_by_speed.reset();
     by_newton.restitution = NewtonCoefficient{stated.value};
     return absl::StrCat(Curves("over", scene), Curves("elastic", elastic),
                         Json("simulator", "Solve", absl::StrCat("{\"scene\":", SceneJson(by_newton), "}")));

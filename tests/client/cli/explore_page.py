@@ -242,6 +242,30 @@ class ExplorePageTest(unittest.TestCase):
         self.assert_shows_the_answer_of_its_scene()
         self.assertGreater(self.browser.script("return document.querySelectorAll('.ghost').length"), 2)
 
+    ROD = {"planar_body.mass_kg": 1, "planar_body.inertia_com_kg_m2": 0.0833, "planar_body.offset_t_m": 0.2,
+           "planar_body.offset_n_m": -0.458, "planar_body.velocity_t_m_s": 1, "planar_body.velocity_n_m_s": -1,
+           "planar_body.rate_rad_s": 0.5}
+
+    def open_fields(self, fields):
+        self.open("&".join(["x", *(f"{name}={value}" for name, value in fields.items())]))
+
+    def test_friction_that_depends_on_the_speed_is_set_on_the_axis_that_is_drawn(self):
+        self.open_fields({**self.ROD, "friction.kinetic_coefficient": 1.3, "friction.by_speed.power_law.alpha": 0.6,
+                          "friction.by_speed.power_law.exponent": 1, "restitution.energetic": 0.8})
+        self.drag("#over .handle", 1, 0)
+        stated, effective = self.browser.script("return [get(MU), answers.solve.answer.outcome.effective.kinetic]")
+        self.assertAlmostEqual(stated, 1.31, delta=0.02)
+        marked = re.search(r"can hold from ([0-9.]+)", self.text("#strip")).group(1)
+        stick = self.browser.script("return answers.bounds.answer.bounds.critical.stick")
+        self.assertAlmostEqual(float(marked), stick * stated / effective, delta=1e-3)
+
+    def test_restitution_that_depends_on_the_speed_is_named_as_it_is_there(self):
+        self.open_fields({**self.ROD, "friction.kinetic_coefficient": 0.3, "restitution.by_speed.power_law.alpha": 0.5,
+                          "restitution.by_speed.power_law.exponent": 1, "restitution.energetic": 0.8})
+        self.assertIn("It takes 0.44 (0.8 at this speed) for the ratio", self.text("#simulator-note"))
+        # What a contact can return does not depend on what the scene states.
+        self.assertAlmostEqual(self.browser.script("return Math.max(...columnsOf('elastic').values[2])"), 1, delta=1e-9)
+
     def test_newton_s_law_is_shown_to_create_energy(self):
         self.open("linkage")
         self.assertIn("of energy would come from nothing", self.text("#simulator-note"))
