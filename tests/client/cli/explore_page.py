@@ -332,10 +332,28 @@ class ExplorePageTest(unittest.TestCase):
         self.settle()
         self.assertTrue(self.browser.script("return ({}).polluted === undefined && Object.polluted === undefined"))
 
+    def test_the_address_holds_a_law_of_defaults(self):
+        for law in ({"brach": "{}"}, {"brach.e": 0.5}):
+            self.open_fields({**self.ROD, "friction.kinetic_coefficient": 0.3, **law})
+            shown, law_there = self.text("#leaves"), self.browser.script("return JSON.stringify(scene.brach)")
+            self.assertIn("v = ", shown)
+            address = self.browser.script("return location.href")
+            self.browser.open("about:blank")
+            self.browser.open(address)
+            self.settle()
+            self.assertEqual([self.text("#leaves"), self.browser.script("return JSON.stringify(scene.brach)")],
+                             [shown, law_there])
+
+    def test_an_address_with_the_name_of_no_scene_opens_one(self):
+        for name in ("toString", "__proto__", "nosuch"):
+            self.open(name)
+            self.assert_shows_the_answer_of_its_scene()
+
     def test_an_address_that_holds_no_scene_is_named_and_the_page_goes_on(self):
         for scene in ("pendulum=3", "linkage.links=5", "body_pair=3", "body_pair.spatial=1", "contacts=5",
                       "linkage.links[2].length_m=1", "pendulum.a_m.b=1", "spatial_body.linear_m_s=2",
-                      "pendulum.a_m=1&pendulum.b_m=one", "pendulum.a_m"):
+                      "pendulum.a_m=1&pendulum.b_m=one", "pendulum.a_m", "pendulum.a_m=1%", "restitution=5",
+                      "linkage={}", "linkage.links[0]={}", "contacts=[]"):
             self.browser.open("about:blank")
             self.browser.open(f"{self.url}#at=x&{scene}")
             self.settle()
