@@ -222,6 +222,24 @@ class ExplorePageTest(unittest.TestCase):
                         self.browser.screenshot(DIRECTORY / f"explore-{scene}-{width}-{scheme}.png")
         self.assertEqual(self.browser.console(), [])
 
+    def test_the_strip_says_what_the_verdict_says(self):
+        for scene, frictions in (("pendulum", ("0.289", "0.291", "0.2999", "0.3", "0.301", "0.001", "5")),
+                                 ("planar_body", ("0.494", "0.4944", "0.62", "0.622"))):
+            self.open(scene)
+            for friction in frictions:
+                self.browser.script(f"change(MU, {friction})")
+                self.settle()
+                shown = self.text("#strip .here title")
+                self.assertEqual(shown, self.browser.script(
+                    "return BEHAVIOUR[columnsOf('over').regimes[columnsOf('over').mu.indexOf(get(MU))]]"))
+                if scene == "pendulum":
+                    self.assertEqual(shown, "locks" if float(friction) >= 0.3 else "rebounds")
+        # The pendulum locks from a/|b| on, where the strip begins to say so.
+        self.open("pendulum")
+        at, width = self.browser.script(
+            "const b = $('strip').querySelectorAll('rect')[1]; return [b.x.baseVal.value, $('strip').viewBox.baseVal.width];")
+        self.assertAlmostEqual(at / width * 2, 0.3, delta=1e-5)
+
     def test_stick_reversal_and_jamming_are_found_by_dragging_alone(self):
         self.open("pendulum")
         self.drag("#over .handle", 90, 0)
