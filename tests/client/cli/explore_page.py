@@ -193,6 +193,33 @@ class ExplorePageTest(unittest.TestCase):
         self.assert_shows_the_answer_of_its_scene()
         self.assertEqual(self.browser.console(), [])
 
+    def test_a_stiffness_beyond_the_picture_can_be_dragged_back(self):
+        field = "contacts[1].relative_stiffness"
+        self.open("box_on_two_feet")
+        limits = f"return [inputs['{field}'].slider.min, inputs['{field}'].slider.max]"
+        usual = self.browser.script(limits)
+        for refused in (0, -1):
+            self.browser.script(f"change('{field}', {refused})")
+            self.settle()
+            self.assertEqual(self.browser.script(limits), usual)
+            self.assertIn("relative_stiffness", self.text("#leaves"))
+        for stiffness, mark in ((1e-4, "◀ 0.0001"), (1e4, "▶ 10000")):
+            self.browser.script(f"change('{field}', {stiffness})")
+            self.settle()
+            self.assertIn(mark, self.text("#spread"))
+            self.browser.screenshot(DIRECTORY / "explore-box-stiff.png")
+        self.drag("#spread .handle", -100, 0)
+        self.assertTrue(0.01 <= self.browser.script(f"return get('{field}')") < 100)
+        self.assertNotIn("▶", self.text("#spread"))
+        self.assert_shows_the_outcomes_of_its_scene()
+
+    def test_a_coefficient_beyond_the_picture_is_marked(self):
+        self.open_fields({"pendulum.inertia_kg_m2": 1, "pendulum.a_m": 0.3, "pendulum.b_m": 3,
+                          "pendulum.omega_minus_rad_s": -1, "friction.kinetic_coefficient": 0.09,
+                          "restitution.energetic": 1})
+        self.assertIn("▲ 4.36", self.text("#over"))
+        self.browser.screenshot(DIRECTORY / "explore-beyond.png")
+
     def test_a_link_holds_a_mechanism_of_many_coordinates(self):
         n = 7
         numbers = {"mass_matrix": [int(i % (n + 1) == 0) for i in range(n * n)],
