@@ -461,6 +461,30 @@ class ExplorePageTest(unittest.TestCase):
             self.assertTrue(self.text("#state").startswith("✓"))
         self.assertEqual(self.browser.console(), [])
 
+    def test_nothing_of_an_earlier_scene_is_left(self):
+        def show(fields):
+            self.browser.script(f"setScene('yours', {json.dumps(fields)}); opened();")
+            self.settle()
+        rod = {name.split(".")[1]: value for name, value in self.ROD.items()}
+        friction = {"friction": {"kinetic_coefficient": 0.3}}
+        self.open("spatial_body")
+        show({"planar_body": rod, **friction, "whittaker": {"e": 0.5}})
+        self.assertEqual(self.text("#over .layer"), "The scene states no coefficient.")
+        self.assertEqual(self.text("#over-note") + self.text("#strip"), "")
+        self.open("spatial_body")
+        self.browser.script("change('spatial_body.mass_kg', -1)")
+        self.settle()
+        self.assertEqual(self.browser.script("return document.querySelectorAll('#over .handle').length"), 0)
+        self.assertEqual(self.text("#over-note") + self.text("#course-note"), "")
+        self.assertEqual(self.text("#course-title"), "Routh's diagram")
+        # A contact that separates has no coefficients, neither in the table nor beside the controls.
+        show({"planar_body": {**rod, "velocity_n_m_s": 3}, **friction, "restitution": {"energetic": 0.8}})
+        self.assertEqual(self.browser.script("return [...document.querySelectorAll('#coefficients :is(b, small)')].map("
+                                             "one => one.textContent).join('')"), "–––")
+        self.assertEqual([row[1] for row in self.rows("possible")[:3]], ["–"] * 3)
+        self.assertIn("m/s, each exact (proved).", self.text("#leaves"))
+        self.assertNotRegex(self.text("#leaves"), "exact m/s|no known error m/s|each no")
+
     def test_numbers_that_are_zero_have_controls(self):
         self.browser.open("about:blank")
         self.browser.open(f"{self.url}#at=x&pendulum.a_m=0.3&pendulum.inertia_kg_m2=1&pendulum.omega_minus_rad_s=-1"
@@ -478,6 +502,18 @@ class ExplorePageTest(unittest.TestCase):
         self.settle()
         for field in ("body_1.angular_rad_s[2]", "body_2.linear_m_s[0]"):
             self.assertEqual(self.browser.script(f"return inputs['body_pair.spatial.{field}'].number.value"), "0")
+
+    def test_every_field_has_a_name_of_its_own(self):
+        for scene in (*SCENES, "box_on_two_feet"):
+            self.open(scene)
+            labels = self.browser.script("return Object.values(inputs).map(one => one.slider.ariaLabel)")
+            self.assertEqual(sorted(set(labels)), sorted(labels))
+            self.assertEqual(self.browser.script(
+                "return Object.entries(inputs).filter(([f, one]) => Number(one.slider.ariaValueText) !== get(f))"), [])
+        self.assertIn("velocity, up m/s", labels)
+        self.assertIn("contact 2: point, right m", labels)
+        self.assertEqual(self.text("#leaves"), "body_1.x differs by 0.9 m/s between the orders 1 and 2.")
+        self.assertFalse(self.browser.script("return $('ghosts').checkVisibility()"))
 
     def test_every_field_has_the_unit_of_its_name(self):
         for scene, field, unit in (("planar_body", "planar_body.offset_n_m", "[m]"),
