@@ -1,11 +1,13 @@
 #include "client/cli/explore/impact_page.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
+#include "absl/types/span.h"
 #include "client/cli/explore/connect.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/input/scene_templates.h"
@@ -91,7 +93,10 @@ struct Asking {
       if (mu[i] > 0 && regimes[i] != regimes[i + 1]) borders.push_back(i);
     }
     std::vector<double> low, high, middle(borders.size());
-    for (const size_t i : borders) low.push_back(mu[i]), high.push_back(mu[i + 1]);
+    for (const size_t i : borders) {
+      low.push_back(mu[i]);
+      high.push_back(mu[i + 1]);
+    }
     for (int round = 0; round < 12 && !borders.empty(); ++round) {
       for (size_t k = 0; k < middle.size(); ++k) middle[k] = low[k] + (high[k] - low[k]) / 2;
       const std::vector<Regime> found = RegimesAt(middle);
