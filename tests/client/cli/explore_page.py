@@ -19,7 +19,7 @@ from browser import Browser, CUT_OFF, CUT_OFF_IN_PICTURES, SMALLEST_TEXT
 DIRECTORY, RICOCHET = [Path(sys.argv.pop()).resolve() for _ in range(2)]
 SCENES = ["pendulum", "planar_body", "spatial_body", "body_pair", "linkage", "planar_contact"]
 LEAST_TEXT_PX = 10
-SETTLED = "return document.getElementById('verdict').ariaBusy !== 'true' && !isAsking"
+SETTLED = "return document.getElementById('verdict').ariaBusy !== 'true' && !isAsking && !frame"
 
 # Counts the calls of each kind that are under way, from before the first one.
 COUNT_CALLS = """
