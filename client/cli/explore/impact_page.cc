@@ -1,11 +1,13 @@
 #include "client/cli/explore/impact_page.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
+#include "absl/types/span.h"
 #include "client/cli/explore/connect.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/input/scene_templates.h"
@@ -21,6 +23,8 @@ namespace ricochet::cli {
 extern const absl::string_view kImpactPage;  // The text of impact_page.html.
 
 namespace {
+
+constexpr char kFriction[] = "friction.kinetic_coefficient";
 
 std::string SceneJson(const Scene& scene) { return SparseJsonOf(ToProto(scene)); }
 
@@ -66,16 +70,53 @@ struct Asking {
                         answer.ok() ? *answer : ErrorJson(answer.status()), "}");
   }
 
-  // Asks for the coefficients of restitution over friction, from 0 to at least 2.
-  std::string Curves(const char* name, const Scene& of) const {
-    const double most = std::max(2.0, 1.25 * of.friction.kinetic_coefficient);
-    std::vector<double> mu;
+  // Returns the regime at each coefficient of friction; nothing if there is no answer.
+  std::vector<Regime> RegimesAt(const std::vector<double>& mu) const {
+    std::vector<Regime> regimes(mu.size());
+    std::vector<double> numbers(mu.size());
+    const BatchSetup setup = {.scene = scene, .fields = {kFriction}, .columns = {"coefficients.newton"}};
+    const BatchRows rows = {
+        .inputs = {mu}, .outputs = {absl::MakeSpan(numbers)}, .regimes = absl::MakeSpan(regimes), .statuses = {}};
+    return solver.SolveBatch(setup, rows, options).ok() ? regimes : std::vector<Regime>();
+  }
+
+  // Returns coefficients of friction from 0 to at least 2. The scene's own is one of them, and where the regime changes
+  // two are so near to each other that the page need not guess where it does.
+  std::vector<double> FrictionAxis() const {
+    const double own = scene.friction.kinetic_coefficient, most = std::max(2.0, 1.25 * own);
+    std::vector<double> mu = {own};
     for (int i = 0; i <= 100; ++i) mu.push_back(most * i / 100);
+    std::sort(mu.begin(), mu.end());
+    const std::vector<Regime> regimes = RegimesAt(mu);
+    std::vector<size_t> borders;  // Numbers of the coefficients below them. A smooth surface is a point, not a range.
+    for (size_t i = 1; i + 1 < regimes.size(); ++i) {
+      if (mu[i] > 0 && regimes[i] != regimes[i + 1]) borders.push_back(i);
+    }
+    std::vector<double> low, high, middle(borders.size());
+    for (const size_t i : borders) {
+      low.push_back(mu[i]);
+      high.push_back(mu[i + 1]);
+    }
+    for (int round = 0; round < 12 && !borders.empty(); ++round) {
+      for (size_t k = 0; k < middle.size(); ++k) middle[k] = low[k] + (high[k] - low[k]) / 2;
+      const std::vector<Regime> found = RegimesAt(middle);
+      for (size_t k = 0; k < found.size(); ++k) (found[k] == regimes[borders[k]] ? low : high)[k] = middle[k];
+    }
+    mu.insert(mu.end(), low.begin(), low.end());
+    mu.insert(mu.end(), high.begin(), high.end());
+    std::sort(mu.begin(), mu.end());
+    mu.erase(std::unique(mu.begin(), mu.end()), mu.end());
+    return mu;
+  }
+
+  // Asks for the coefficients of restitution and the effective friction over the stated one.
+  std::string Curves(const char* name, const Scene& of, const std::vector<double>& mu) const {
     const std::string bytes(reinterpret_cast<const char*>(mu.data()), mu.size() * sizeof(double));
     return Json(name, "SolveBatch",
-                absl::StrCat(R"({"setup":{"fields":["friction.kinetic_coefficient"],"columns":[)",
-                             R"("coefficients.newton","coefficients.poisson","coefficients.energetic"],)",
-                             R"("scene":)", SceneJson(of), R"(},"inputs":[")", absl::Base64Escape(bytes), R"("]})"));
+                absl::StrCat(R"({"setup":{"fields":[")", kFriction, R"("],"columns":[)",
+                             R"("coefficients.newton","coefficients.poisson","coefficients.energetic",)",
+                             R"("effective.kinetic"],)", R"("scene":)", SceneJson(of), R"(},"inputs":[")",
+                             absl::Base64Escape(bytes), R"("]})"));
   }
 
   // These depend on the coefficient that the scene states, and are none without one.
@@ -84,8 +125,10 @@ struct Asking {
   std::string operator()(const Coefficient& stated) const {
     Scene elastic = scene, by_newton = scene;
     elastic.restitution = EnergeticCoefficient{1.0};
+    elastic.restitution_by_speed.reset();
     by_newton.restitution = NewtonCoefficient{stated.value};
-    return absl::StrCat(Curves("over", scene), Curves("elastic", elastic),
+    const std::vector<double> mu = FrictionAxis();
+    return absl::StrCat(Curves("over", scene, mu), Curves("elastic", elastic, mu),
                         Json("simulator", "Solve", absl::StrCat("{\"scene\":", SceneJson(by_newton), "}")));
   }
 };

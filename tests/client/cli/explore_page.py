@@ -19,7 +19,7 @@ from browser import Browser, CUT_OFF, CUT_OFF_IN_PICTURES, SMALLEST_TEXT
 DIRECTORY, RICOCHET = [Path(sys.argv.pop()).resolve() for _ in range(2)]
 SCENES = ["pendulum", "planar_body", "spatial_body", "body_pair", "linkage", "planar_contact"]
 LEAST_TEXT_PX = 10
-SETTLED = "return document.getElementById('verdict').ariaBusy !== 'true' && document.querySelector('#motion tr, #several tr')"
+SETTLED = "return document.getElementById('verdict').ariaBusy !== 'true' && !isAsking && !frame"
 
 # Counts the calls of each kind that are under way, from before the first one.
 COUNT_CALLS = """
@@ -107,6 +107,15 @@ class ExplorePageTest(unittest.TestCase):
             self.browser.command("Input.dispatchKeyEvent", type=kind, key=name, code=name,
                                  windowsVirtualKeyCode={"Tab": 9, "ArrowRight": 39}[name])
 
+    def rows(self, table):
+        """The texts of the cells of a table."""
+        return self.browser.script(
+            f"return [...document.querySelectorAll('#{table} tr')].map(r => [...r.children].map(c => c.textContent))")
+
+    def assert_holds(self, shown_range, shown):
+        low, high = map(number, shown_range.split(" … "))
+        self.assertTrue(low <= number(shown) <= high, (shown_range, shown))
+
     def assert_shows_the_answer_of_its_scene(self):
         scene = DIRECTORY / "copied.textproto"
         self.browser.script("[...document.querySelectorAll('#forms button')].find(b => b.textContent == 'textproto').click()")
@@ -123,6 +132,9 @@ class ExplorePageTest(unittest.TestCase):
             shown = self.browser.script(f"return document.querySelector('input[value={law}] ~ b').textContent")
             exact = solved["coefficients"][law]
             self.assertAlmostEqual(number(shown), exact, delta=abs(exact) * 1e-4)
+        for _, here, *ranges in self.rows("possible")[:3] if solved["admissible"] else []:
+            for one in ranges if "–" not in ranges else ranges[:1]:
+                self.assert_holds(one, here)
         change = self.browser.script("return [...document.querySelectorAll('#energy .strong')].at(-1).textContent")
         self.assertAlmostEqual(number(change), solved["energy_change_j"], delta=abs(solved["energy_change_j"]) * 1e-2)
 
@@ -143,8 +155,10 @@ class ExplorePageTest(unittest.TestCase):
         self.browser.script("[...document.querySelectorAll('#forms button')].find(b => b.textContent == 'textproto').click()")
         scene.write_text(self.browser.script("return document.getElementById('copied').value"), encoding="utf-8")
         answer = json.loads(ricochet("multicontact", "--scene", str(scene), "--format", "json"))["answers"][0]
-        rows = self.browser.script(
-            "return [...document.querySelectorAll('#several tr')].map(r => [...r.children].map(c => c.textContent))")
+        rows = self.rows("several")
+        for i in (1, 2, 3):
+            for row in rows[:-1]:
+                self.assert_holds(rows[-1][i], row[i])
         exact = {one["orders"][0]: one["velocity"] for one in answer["orders"]}
         return ({name: [number(text) for text in texts[:3]] for name, *texts in rows if name != "possible"},
                 {**exact, "springs": answer["springs"]["velocity"]})
@@ -169,14 +183,42 @@ class ExplorePageTest(unittest.TestCase):
         self.drag("#spread .handle", 60, 0)
         stiffer = self.assert_shows_the_outcomes_of_its_scene()["springs"][2]
         self.assertGreater(stiffer, 0.05)
-        self.open("box_on_two_feet", 400, "dark")
-        self.assertEqual(self.browser.script("return document.documentElement.scrollWidth"), 400)
+        for width in (320, 400):
+            self.open("box_on_two_feet", width, "dark")
+            self.assertEqual(self.browser.script("return document.documentElement.scrollWidth"), width)
         self.assertEqual(self.browser.script(CUT_OFF) + self.browser.script(CUT_OFF_IN_PICTURES), [])
         self.browser.screenshot(DIRECTORY / "explore-box-400-dark.png")
         self.browser.script("document.querySelector('[data-at=pendulum]').click()")
         self.settle()
         self.assert_shows_the_answer_of_its_scene()
         self.assertEqual(self.browser.console(), [])
+
+    def test_a_stiffness_beyond_the_picture_can_be_dragged_back(self):
+        field = "contacts[1].relative_stiffness"
+        self.open("box_on_two_feet")
+        limits = f"return [inputs['{field}'].slider.min, inputs['{field}'].slider.max]"
+        usual = self.browser.script(limits)
+        for refused in (0, -1):
+            self.browser.script(f"change('{field}', {refused})")
+            self.settle()
+            self.assertEqual(self.browser.script(limits), usual)
+            self.assertIn("relative_stiffness", self.text("#leaves"))
+        for stiffness, mark in ((1e-4, "◀ 0.0001"), (1e4, "▶ 10000")):
+            self.browser.script(f"change('{field}', {stiffness})")
+            self.settle()
+            self.assertIn(mark, self.text("#spread"))
+            self.browser.screenshot(DIRECTORY / "explore-box-stiff.png")
+        self.drag("#spread .handle", -100, 0)
+        self.assertTrue(0.01 <= self.browser.script(f"return get('{field}')") < 100)
+        self.assertNotIn("▶", self.text("#spread"))
+        self.assert_shows_the_outcomes_of_its_scene()
+
+    def test_a_coefficient_beyond_the_picture_is_marked(self):
+        self.open_fields({"pendulum.inertia_kg_m2": 1, "pendulum.a_m": 0.3, "pendulum.b_m": 3,
+                          "pendulum.omega_minus_rad_s": -1, "friction.kinetic_coefficient": 0.09,
+                          "restitution.energetic": 1})
+        self.assertIn("▲ 4.36", self.text("#over"))
+        self.browser.screenshot(DIRECTORY / "explore-beyond.png")
 
     def test_a_link_holds_a_mechanism_of_many_coordinates(self):
         n = 7
@@ -207,6 +249,24 @@ class ExplorePageTest(unittest.TestCase):
                         self.browser.screenshot(DIRECTORY / f"explore-{scene}-{width}-{scheme}.png")
         self.assertEqual(self.browser.console(), [])
 
+    def test_the_strip_says_what_the_verdict_says(self):
+        for scene, frictions in (("pendulum", ("0.289", "0.291", "0.2999", "0.3", "0.301", "0.001", "5")),
+                                 ("planar_body", ("0.494", "0.4944", "0.62", "0.622"))):
+            self.open(scene)
+            for friction in frictions:
+                self.browser.script(f"change(MU, {friction})")
+                self.settle()
+                shown = self.text("#strip .here title")
+                self.assertEqual(shown, self.browser.script(
+                    "return BEHAVIOUR[columnsOf('over').regimes[columnsOf('over').mu.indexOf(get(MU))]]"))
+                if scene == "pendulum":
+                    self.assertEqual(shown, "locks" if float(friction) >= 0.3 else "rebounds")
+        # The pendulum locks from a/|b| on, where the strip begins to say so.
+        self.open("pendulum")
+        at, width = self.browser.script(
+            "const b = $('strip').querySelectorAll('rect')[1]; return [b.x.baseVal.value, $('strip').viewBox.baseVal.width];")
+        self.assertAlmostEqual(at / width * 2, 0.3, delta=1e-5)
+
     def test_stick_reversal_and_jamming_are_found_by_dragging_alone(self):
         self.open("pendulum")
         self.drag("#over .handle", 90, 0)
@@ -226,6 +286,30 @@ class ExplorePageTest(unittest.TestCase):
         self.drag("#strike .handle[data-id=middle]", -100, 40)
         self.assert_shows_the_answer_of_its_scene()
         self.assertGreater(self.browser.script("return document.querySelectorAll('.ghost').length"), 2)
+
+    ROD = {"planar_body.mass_kg": 1, "planar_body.inertia_com_kg_m2": 0.0833, "planar_body.offset_t_m": 0.2,
+           "planar_body.offset_n_m": -0.458, "planar_body.velocity_t_m_s": 1, "planar_body.velocity_n_m_s": -1,
+           "planar_body.rate_rad_s": 0.5}
+
+    def open_fields(self, fields):
+        self.open("&".join(["x", *(f"{name}={value}" for name, value in fields.items())]))
+
+    def test_friction_that_depends_on_the_speed_is_set_on_the_axis_that_is_drawn(self):
+        self.open_fields({**self.ROD, "friction.kinetic_coefficient": 1.3, "friction.by_speed.power_law.alpha": 0.6,
+                          "friction.by_speed.power_law.exponent": 1, "restitution.energetic": 0.8})
+        self.drag("#over .handle", 1, 0)
+        stated, effective = self.browser.script("return [get(MU), answers.solve.answer.outcome.effective.kinetic]")
+        self.assertAlmostEqual(stated, 1.31, delta=0.02)
+        marked = re.search(r"can hold from ([0-9.]+)", self.text("#strip")).group(1)
+        stick = self.browser.script("return answers.bounds.answer.bounds.critical.stick")
+        self.assertAlmostEqual(float(marked), stick * stated / effective, delta=1e-3)
+
+    def test_restitution_that_depends_on_the_speed_is_named_as_it_is_there(self):
+        self.open_fields({**self.ROD, "friction.kinetic_coefficient": 0.3, "restitution.by_speed.power_law.alpha": 0.5,
+                          "restitution.by_speed.power_law.exponent": 1, "restitution.energetic": 0.8})
+        self.assertIn("It takes 0.44 (0.8 at this speed) for the ratio", self.text("#simulator-note"))
+        # What a contact can return does not depend on what the scene states.
+        self.assertAlmostEqual(self.browser.script("return Math.max(...columnsOf('elastic').values[2])"), 1, delta=1e-9)
 
     def test_newton_s_law_is_shown_to_create_energy(self):
         self.open("linkage")
@@ -293,10 +377,28 @@ class ExplorePageTest(unittest.TestCase):
         self.settle()
         self.assertTrue(self.browser.script("return ({}).polluted === undefined && Object.polluted === undefined"))
 
+    def test_the_address_holds_a_law_of_defaults(self):
+        for law in ({"brach": "{}"}, {"brach.e": 0.5}):
+            self.open_fields({**self.ROD, "friction.kinetic_coefficient": 0.3, **law})
+            shown, law_there = self.text("#leaves"), self.browser.script("return JSON.stringify(scene.brach)")
+            self.assertIn("v = ", shown)
+            address = self.browser.script("return location.href")
+            self.browser.open("about:blank")
+            self.browser.open(address)
+            self.settle()
+            self.assertEqual([self.text("#leaves"), self.browser.script("return JSON.stringify(scene.brach)")],
+                             [shown, law_there])
+
+    def test_an_address_with_the_name_of_no_scene_opens_one(self):
+        for name in ("toString", "__proto__", "nosuch"):
+            self.open(name)
+            self.assert_shows_the_answer_of_its_scene()
+
     def test_an_address_that_holds_no_scene_is_named_and_the_page_goes_on(self):
         for scene in ("pendulum=3", "linkage.links=5", "body_pair=3", "body_pair.spatial=1", "contacts=5",
                       "linkage.links[2].length_m=1", "pendulum.a_m.b=1", "spatial_body.linear_m_s=2",
-                      "pendulum.a_m=1&pendulum.b_m=one", "pendulum.a_m"):
+                      "pendulum.a_m=1&pendulum.b_m=one", "pendulum.a_m", "pendulum.a_m=1%", "restitution=5",
+                      "linkage={}", "linkage.links[0]={}", "contacts=[]"):
             self.browser.open("about:blank")
             self.browser.open(f"{self.url}#at=x&{scene}")
             self.settle()
@@ -332,6 +434,57 @@ class ExplorePageTest(unittest.TestCase):
         for picture in ("course", "energy", "over"):
             self.assertEqual(self.text(f"#{picture} .layer"), "There is no answer for this scene.")
 
+    def test_a_field_without_a_number_is_marked_and_has_no_verdict(self):
+        for scene, field, label in (("pendulum", "pendulum.a_m", "a, tip beside pin"),
+                                    ("box_on_two_feet", "contacts[1].friction", "contact 2: friction μ")):
+            for typed in ("", "1e", "-", "--1"):
+                self.open(scene)
+                self.browser.script(f"inputs['{field}'].number.focus(); inputs['{field}'].number.select()")
+                for letter in typed or ["\b"]:
+                    self.browser.command("Input.dispatchKeyEvent", type="keyDown", windowsVirtualKeyCode=8 if not typed
+                                         else 0, text=letter if typed else "")
+                self.browser.script(f"inputs['{field}'].number.blur()")
+                self.settle()
+                self.assertEqual(self.text("#sentence"), f"There is no number in: {label}.", typed)
+                self.assertEqual(self.text("#leaves") + self.text("#state") + self.text("#motion") + self.text("#several"),
+                                 "")
+                self.assertEqual(self.browser.script("return $('verdict').className"), "bad")
+                marked = "return [...document.querySelectorAll('[aria-invalid=true]')].length"
+                self.assertEqual(self.browser.script(marked), 1)
+                self.assertNotIn("NaN", self.browser.script("return location.hash + $('copied').value"))
+            # Any control that sets the number ends this.
+            self.browser.script(f"inputs['{field}'].slider.value = 0.5;"
+                                f"inputs['{field}'].slider.dispatchEvent(new Event('input'));")
+            self.settle()
+            self.assertEqual(self.browser.script(f"return [inputs['{field}'].number.value, ...[{marked[7:]}]]"),
+                             ["0.5", 0])
+            self.assertTrue(self.text("#state").startswith("✓"))
+        self.assertEqual(self.browser.console(), [])
+
+    def test_nothing_of_an_earlier_scene_is_left(self):
+        def show(fields):
+            self.browser.script(f"setScene('yours', {json.dumps(fields)}); opened();")
+            self.settle()
+        rod = {name.split(".")[1]: value for name, value in self.ROD.items()}
+        friction = {"friction": {"kinetic_coefficient": 0.3}}
+        self.open("spatial_body")
+        show({"planar_body": rod, **friction, "whittaker": {"e": 0.5}})
+        self.assertEqual(self.text("#over .layer"), "The scene states no coefficient.")
+        self.assertEqual(self.text("#over-note") + self.text("#strip"), "")
+        self.open("spatial_body")
+        self.browser.script("change('spatial_body.mass_kg', -1)")
+        self.settle()
+        self.assertEqual(self.browser.script("return document.querySelectorAll('#over .handle').length"), 0)
+        self.assertEqual(self.text("#over-note") + self.text("#course-note"), "")
+        self.assertEqual(self.text("#course-title"), "Routh's diagram")
+        # A contact that separates has no coefficients, neither in the table nor beside the controls.
+        show({"planar_body": {**rod, "velocity_n_m_s": 3}, **friction, "restitution": {"energetic": 0.8}})
+        self.assertEqual(self.browser.script("return [...document.querySelectorAll('#coefficients :is(b, small)')].map("
+                                             "one => one.textContent).join('')"), "–––")
+        self.assertEqual([row[1] for row in self.rows("possible")[:3]], ["–"] * 3)
+        self.assertIn("m/s, each exact (proved).", self.text("#leaves"))
+        self.assertNotRegex(self.text("#leaves"), "exact m/s|no known error m/s|each no")
+
     def test_numbers_that_are_zero_have_controls(self):
         self.browser.open("about:blank")
         self.browser.open(f"{self.url}#at=x&pendulum.a_m=0.3&pendulum.inertia_kg_m2=1&pendulum.omega_minus_rad_s=-1"
@@ -349,6 +502,18 @@ class ExplorePageTest(unittest.TestCase):
         self.settle()
         for field in ("body_1.angular_rad_s[2]", "body_2.linear_m_s[0]"):
             self.assertEqual(self.browser.script(f"return inputs['body_pair.spatial.{field}'].number.value"), "0")
+
+    def test_every_field_has_a_name_of_its_own(self):
+        for scene in (*SCENES, "box_on_two_feet"):
+            self.open(scene)
+            labels = self.browser.script("return Object.values(inputs).map(one => one.slider.ariaLabel)")
+            self.assertEqual(sorted(set(labels)), sorted(labels))
+            self.assertEqual(self.browser.script(
+                "return Object.entries(inputs).filter(([f, one]) => Number(one.slider.ariaValueText) !== get(f))"), [])
+        self.assertIn("velocity, up m/s", labels)
+        self.assertIn("contact 2: point, right m", labels)
+        self.assertEqual(self.text("#leaves"), "body_1.x differs by 0.9 m/s between the orders 1 and 2.")
+        self.assertFalse(self.browser.script("return $('ghosts').checkVisibility()"))
 
     def test_every_field_has_the_unit_of_its_name(self):
         for scene, field, unit in (("planar_body", "planar_body.offset_n_m", "[m]"),
