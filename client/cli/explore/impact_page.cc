@@ -92,15 +92,26 @@ struct Asking {
     for (size_t i = 1; i + 1 < regimes.size(); ++i) {
       if (mu[i] > 0 && regimes[i] != regimes[i + 1]) borders.push_back(i);
     }
-    std::vector<double> low, high, middle(borders.size());
+    std::vector<double> low, high;
     for (const size_t i : borders) {
       low.push_back(mu[i]);
       high.push_back(mu[i + 1]);
     }
-    for (int round = 0; round < 12 && !borders.empty(); ++round) {
-      for (size_t k = 0; k < middle.size(); ++k) middle[k] = low[k] + (high[k] - low[k]) / 2;
-      const std::vector<Regime> found = RegimesAt(middle);
-      for (size_t k = 0; k < found.size(); ++k) (found[k] == regimes[borders[k]] ? low : high)[k] = middle[k];
+    // Each round is one call, and makes all gaps kParts times as narrow.
+    constexpr size_t kRounds = 3, kParts = 16;
+    for (size_t round = 0; round < kRounds && !borders.empty(); ++round) {
+      std::vector<double> between;
+      for (size_t k = 0; k < low.size(); ++k) {
+        for (size_t part = 1; part < kParts; ++part) {
+          between.push_back(low[k] + (high[k] - low[k]) * static_cast<double>(part) / kParts);
+        }
+      }
+      const std::vector<Regime> found = RegimesAt(between);
+      for (size_t i = 0; i < found.size(); ++i) {
+        const size_t k = i / (kParts - 1);
+        if (between[i] >= high[k]) continue;
+        (found[i] == regimes[borders[k]] ? low : high)[k] = between[i];
+      }
     }
     mu.insert(mu.end(), low.begin(), low.end());
     mu.insert(mu.end(), high.begin(), high.end());
