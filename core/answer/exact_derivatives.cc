@@ -274,16 +274,19 @@ Derivative ExactDerivatives::At(size_t of, size_t by) const {
   const bool both = below.rate.has_value() && above.rate.has_value();
   bool agree =
       both && std::fabs(*below.rate - *above.rate) <= kRounding * (std::fabs(*below.rate) + std::fabs(*above.rate));
-  const Threshold threshold = agree ? Threshold::kUnspecified : ThresholdOf(number);
+  Threshold threshold = agree ? Threshold::kUnspecified : ThresholdOf(number);
   if (both && !agree) {
     const bool has_one_course = threshold == Threshold::kUnspecified || threshold == Threshold::kSpeedTable;
     double slight = IsMoved(number.above) ? kSlight : 0.0;
     if (!IsMoved(number.above) && has_one_course) slight = kUnseen / std::fabs(number.above.step);
     const double least = SizeOf(places_[of]) * std::max(slight, kNegligible * LargestRate(number));
     agree = std::fabs(*below.rate - *above.rate) <= least;
-    if (agree) below.rate = above.rate = 0.5 * (*below.rate + *above.rate);
+    if (agree) {
+      below.rate = above.rate = 0.5 * (*below.rate + *above.rate);
+      threshold = Threshold::kUnspecified;
+    }
   }
-  return Join(below, above, agree, agree ? Threshold::kUnspecified : threshold);
+  return Join(below, above, agree, threshold);
 }
 
 std::optional<double> ExactDerivatives::ErrorOf(size_t of, size_t by) const {

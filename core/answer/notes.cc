@@ -88,7 +88,7 @@ void AddIdleFrictionNote(Outcome& outcome) {
                   outcome);
 }
 
-// The contact of an impact without forces is that of a model without time.
+// Only an impact without forces, which change velocities as long as the contact lasts, is that of a model without time.
 void AddTimedNote(const Scene& scene, Outcome& outcome) {
   const bool has_forces = !std::holds_alternative<std::monostate>(scene.finite_forces);
   if (outcome.plan.model != Model::kFiniteDuration || has_forces) return;

@@ -27,6 +27,7 @@ InputScene::InputScene(Scene scene, const std::vector<InputColumn>& inputs)
           PathsOf(scene_, inputs), [](size_t i) { return absl::StrCat("inputs[", i, "]"); }, ".path", scene_) {}
 
 std::vector<Violation> InputScene::Violations() const {
+  if (std::holds_alternative<std::monostate>(scene_.system)) return Validate(scene_, RestitutionIs::kOptional);
   if (!fields_.violations().empty()) return fields_.violations();
   for (size_t i = 0; i < inputs_.size(); ++i) {
     const std::string& path = inputs_[i].path;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -113,12 +113,12 @@ class Ray {
 
   // Searches from a start, from each only once.
   const Minimum& MinimumFrom(const std::vector<double>& start) {
-    for (const auto& [earlier, found] : searches_) {
-      if (earlier == start) return found;
-    }
+    const auto [search, is_new] = searches_.try_emplace(start);
+    Minimum& found = search->second;
+    if (!is_new) return found;
     // An iteration that lowers the objective by less changes the end by less than a tenth of its tolerance.
     const double tolerance = 0.1 * kEndTolerance * rise_ / (best_.objective + rise_);
-    const Minimum& found = searches_.emplace_back(start, Minimize(start, is_free_, tolerance, model_)).second;
+    found = Minimize(start, is_free_, tolerance, model_);
     is_plain_ &= std::isfinite(found.objective);
     return found;
   }
@@ -233,10 +233,10 @@ class Ray {
   Place beyond_;                       // The last place outside, or the end.
   bool is_narrowing_ = false;
   bool is_plain_ = true;  // All searches had a prediction, and no place outside has turned out to be inside.
-  std::deque<std::pair<std::vector<double>, Minimum>> searches_;  // Each start, and what was found from it.
-  double longest_ = std::numeric_limits<double>::infinity();      // The distance to the nearest bound.
-  double at_bound_ = 0.0;  // An end that is no further from the bound lies there.
-  RayEnd end_;             // It holds what the places so far have shown, but for the kind.
+  std::map<std::vector<double>, Minimum> searches_;           // Each has its start.
+  double longest_ = std::numeric_limits<double>::infinity();  // The distance to the nearest bound.
+  double at_bound_ = 0.0;                                     // An end that is no further from the bound lies there.
+  RayEnd end_;  // It holds what the places so far have shown, but for the kind.
 };
 
 }  // namespace

@@ -128,7 +128,7 @@ double ObjectiveAt(const std::vector<double>& at, Model& model) {
 
 struct Step {
   bool is_at_bound = false;      // The minimum is better by more than the tolerance, and lies at a bound.
-  bool has_turned_back = false;  // Where numbers had no prediction.
+  bool has_turned_back = false;  // The search met a place without predictions.
 };
 
 // One search from the minimum so far, to which it sets what it finds if that is better.
@@ -148,7 +148,7 @@ Step Search(const std::vector<size_t>& free, double tolerance, Model& model, Min
   minimum.converged = status != Eigen::LevenbergMarquardtSpace::TooManyFunctionEvaluation;
   const std::vector<double> end = residuals.Unknowns(x);
   const double objective = ObjectiveAt(end, model);
-  Step step = {.is_at_bound = false, .has_turned_back = residuals.has_turned_back()};
+  Step step = {.has_turned_back = residuals.has_turned_back()};
   if (!(objective <= before)) return step;
   minimum.at = end;
   minimum.objective = objective;
@@ -218,7 +218,7 @@ std::vector<double> ObjectivesAt(const std::vector<std::vector<double>>& points,
 
 // Eigen's search knows no bounds: an unknown that it moves beyond one stays at the bound, and the others go on. A
 // further search from there sees whether the unknown should come back. Nor does it go along the edge that a rule draws,
-// such as mu <= mu_static, so that searches that hold the unknown there go on.
+// such as mu <= mu_static. Searches that hold an unknown there do, as far as the edge does not depend on the others.
 Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, double tolerance, Model& model) {
   Minimum minimum = {.at = start, .objective = ObjectiveAt(start, model), .converged = true};
   std::vector<size_t> free;

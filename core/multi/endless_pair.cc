@@ -62,7 +62,7 @@ bool IsEndless(const Problem& problem, const Pair& pair, double approach, const 
   const Eigen::Matrix2d& a = pair.a;
   if (!(a(0, 0) > 0.0 && a(1, 1) > 0.0 && a(0, 1) < 0.0 && a(1, 0) < 0.0)) return false;
   // In a slot one contact approaches as the other parts, so that the conditions below hold, the last with equality.
-  if (pair.is_singular) return IsInRange(problem, pair, state);
+  if (pair.is_singular) return pair.e.prod() > 0.0 && IsInRange(problem, pair, state);
   const double e1 = pair.e(0), e2 = pair.e(1);
   const double product = (1.0 + e1) * (1.0 + e2) * (a(0, 1) * a(1, 0) / (a(0, 0) * a(1, 1)));
   const double roots = std::sqrt(e1) + std::sqrt(e2);

@@ -129,7 +129,7 @@ class Search {
       for (size_t i = branched; i < branched_.size(); ++i) branched_[i].is_open = false;
     };
     int64_t taken = 0;
-    double before_last = approach;  // The speed of the impact before the last one.
+    double before_last = approach, before_that = approach;  // The speeds of the impacts before the last one.
     for (;;) {
       if (stopped_()) return taken;
       double left_out = 0.0;
@@ -137,9 +137,11 @@ class Search {
       if (next.empty()) {
         const bool fell = state.order.size() >= kLeastOfEndless && approach <= kEndlessSpeed * scale_;
         state.end = fell ? MultiContactEnd::kEndlessEstimate : MultiContactEnd::kSeparated;
-        // The rest of a sequence without end falls geometrically.
-        const double ratio = std::min(approach / before_last, 1.0 - 1e-6);
-        state.error += fell ? left_out / (1.0 - ratio) : left_out;
+        // The rest of a sequence without end falls geometrically from one impact to the next but one, as the contacts
+        // of a pair may differ.
+        const double ratio = std::min(approach / before_that, 1.0 - 1e-6);
+        const double of_two = 1.0 + std::max(approach / before_last, before_last / before_that);
+        state.error += fell ? left_out * of_two / (1.0 - ratio) : left_out;
         state.error_is_proved = state.error_is_proved && !fell;
         if (fell) FoldPair(state);
         Keep(std::move(state));
@@ -190,7 +192,7 @@ class Search {
         }
       }
       last = next.back();
-      before_last = approach;
+      before_that = std::exchange(before_last, approach);
       approach = -state.v(problem_.N(last));
       Strike(last, state);
       ++taken;
@@ -267,7 +269,7 @@ class Search {
     const bool is_end = IsEnd(end);
     orders_.complete = orders_.complete && is_end;
     auto same = std::find_if(orders_.outcomes.begin(), orders_.outcomes.end(), [&](const DistinctOutcome& other) {
-      return (other.attained.end == end.end || is_end) && AreEqual(other.attained, end);
+      return (other.attained.end == end.end || (is_end && IsEnd(other.attained))) && AreEqual(other.attained, end);
     });
     if (same == orders_.outcomes.end() && orders_.outcomes.size() >= kMostOutcomes) {
       orders_.complete = false;

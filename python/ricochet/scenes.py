@@ -26,4 +26,8 @@ def read_scene(path: str | os.PathLike[str]) -> dict[str, Any]:
     try:
         return _core.parse_scene(os.fsencode(path), text)
     except ValueError as error:
+        try:
+            text.decode()
+        except UnicodeDecodeError as bytes_error:  # The words of the first error may have these bytes.
+            refuse(os.fsdecode(path), f"is not UTF-8 at byte {bytes_error.start}")
         refuse(os.fsdecode(path), str(error))

@@ -381,9 +381,10 @@ class ShortNames(Case):
             Path(os.fsdecode(path)).write_bytes(b"# \xe9\npendulum { inertia_kg_m2: 1 a_m: 1 omega_minus_rad_s: -1 }")
             self.assertEqual(ricochet.read_scene(path), ricochet.read_scene(os.fsdecode(path)))
             self.assertEqual(command_line("scene", "print", "--scene", os.fsdecode(path)).returncode, 0)
-            Path(os.fsdecode(path)).write_bytes(b"pendulum { a_m: \xe9 }")
-            with self.assertRaisesRegex(ricochet.InvalidRequest, "is not a ricochet.v1.Scene"):
-                ricochet.read_scene(path)
+            for wrong in (b"pendulum { a_m: \xe9 }", b'pendulum { a_m: "\xe9" }', b'{"\xe9": 1}'):
+                Path(os.fsdecode(path)).write_bytes(wrong)
+                with self.assertRaisesRegex(ricochet.InvalidRequest, f"is not UTF-8 at byte {wrong.index(0xe9)}"):
+                    ricochet.read_scene(path)
 
     def check_names(self, path, known, listed, what):
         """Every end of a listed path means that path here exactly if the command line takes it for that path."""

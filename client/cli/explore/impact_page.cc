@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <map>
 #include <vector>
 
 #include "absl/strings/escaping.h"
@@ -80,44 +82,31 @@ struct Asking {
     return solver.SolveBatch(setup, rows, options).ok() ? regimes : std::vector<Regime>();
   }
 
-  // Returns coefficients of friction from 0 to at least 2. The scene's own is one of them, and where the regime changes
-  // two are so near to each other that the page need not guess where it does.
+  // Returns coefficients of friction from 0 to at least 2; none if the scene has no answer. The scene's own is one of
+  // them, and where the regime changes two are so near to each other that the page need not guess where it does.
   std::vector<double> FrictionAxis() const {
     const double own = scene.friction.kinetic_coefficient, most = std::max(2.0, 1.25 * own);
     std::vector<double> mu = {own};
     for (int i = 0; i <= 100; ++i) mu.push_back(most * i / 100);
-    std::sort(mu.begin(), mu.end());
-    const std::vector<Regime> regimes = RegimesAt(mu);
-    std::vector<size_t> borders;  // Numbers of the coefficients below them. A smooth surface is a point, not a range.
-    for (size_t i = 1; i + 1 < regimes.size(); ++i) {
-      if (mu[i] > 0 && regimes[i] != regimes[i + 1]) borders.push_back(i);
-    }
-    std::vector<double> low, high;
-    for (const size_t i : borders) {
-      low.push_back(mu[i]);
-      high.push_back(mu[i + 1]);
-    }
-    // Each round is one call, and makes all gaps kParts times as narrow.
-    constexpr size_t kRounds = 3, kParts = 16;
-    for (size_t round = 0; round < kRounds && !borders.empty(); ++round) {
-      std::vector<double> between;
-      for (size_t k = 0; k < low.size(); ++k) {
-        for (size_t part = 1; part < kParts; ++part) {
-          between.push_back(low[k] + (high[k] - low[k]) * static_cast<double>(part) / kParts);
+    std::map<double, Regime> known;
+    // Each further round is one call, and makes the gaps in which the regime changes kParts times as narrow.
+    constexpr int kRounds = 3, kParts = 16;
+    for (int round = 0; round <= kRounds && !mu.empty(); ++round) {
+      const std::vector<Regime> regimes = RegimesAt(mu);
+      if (regimes.empty()) break;
+      for (size_t i = 0; i < mu.size(); ++i) known.emplace(mu[i], regimes[i]);
+      mu.clear();
+      for (auto low = known.begin(), high = std::next(low); high != known.end(); low = high++) {
+        // A smooth surface is a regime at one point.
+        if (low->first == 0.0 || low->second == high->second) continue;
+        for (int part = 1; part < kParts; ++part) {
+          mu.push_back(low->first + (high->first - low->first) * part / kParts);
         }
       }
-      const std::vector<Regime> found = RegimesAt(between);
-      for (size_t i = 0; i < found.size(); ++i) {
-        const size_t k = i / (kParts - 1);
-        if (between[i] >= high[k]) continue;
-        (found[i] == regimes[borders[k]] ? low : high)[k] = between[i];
-      }
     }
-    mu.insert(mu.end(), low.begin(), low.end());
-    mu.insert(mu.end(), high.begin(), high.end());
-    std::sort(mu.begin(), mu.end());
-    mu.erase(std::unique(mu.begin(), mu.end()), mu.end());
-    return mu;
+    std::vector<double> axis;
+    for (const auto& [at, regime] : known) axis.push_back(at);
+    return axis;
   }
 
   // Asks for the coefficients of restitution and the effective friction over the stated one.

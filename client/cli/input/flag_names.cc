@@ -28,8 +28,8 @@ bool HasFlagsForScene(const CLI::App& command) {
          !IsGiven(command, "--request");
 }
 
-// The flags that set fields of requests, by how their paths begin. One that ends with "[" has one entry for each text;
-// a name of columns may stand for several.
+// The flags that set fields of requests, by how their paths begin. Where that ends with "[", the index that follows is
+// that of the text, too. "coefficients.*" stands for several columns, so that theirs is not.
 constexpr std::pair<const char*, const char*> kRequestFlags[] = {{"relative_tolerance", "--tolerance"},
                                                                  {"required[", "--require"},
                                                                  {"excluded[", "--exclude"},

@@ -139,8 +139,9 @@ std::string ShapeOfJacobian(int64_t n, int64_t contacts, bool has_more_rows) {
     return absl::StrCat("be (", 2 * contacts, ", ", n, ") with rows t, n for each of the ", contacts, " contacts or (",
                         3 * contacts, ", ", n, ") with rows t1, t2, n");
   }
-  return absl::StrCat("be (2, ", n, ") with rows t, n or (3, ", n, ") with rows t1, t2, n",
-                      has_more_rows ? "; `ricochet multicontact --mechanism` takes several contacts" : "");
+  return absl::StrCat(
+      "be (2, ", n, ") with rows t, n or (3, ", n, ") with rows t1, t2, n",
+      has_more_rows ? "; for several contacts `ricochet multicontact` takes a number of --mu for each" : "");
 }
 
 absl::StatusOr<Mechanism> Read(const std::string& path, int64_t contacts) {

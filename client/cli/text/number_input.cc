@@ -18,10 +18,7 @@ constexpr double kMostCount = 9007199254740992.0;  // 2^53: every whole number u
 constexpr double kYearMs = 365.0 * 24 * 3600 * 1000;
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
-std::string& LargeAngle() {
-  static std::string text;
-  return text;
-}
+std::string large_angle;  // LargeAngleRead returns it.
 
 constexpr char kNumberRule[] = "be a number such as 0.1 or 1e-3, or a fraction such as 1/3";
 constexpr char kRangeRule[] = "be 0, or a number of a size from 4.95e-324 to 1.7976931348623157e+308";
@@ -70,14 +67,13 @@ std::string ReadNumber(const std::string& text, Spelling spelling, double& value
   const bool is_fraction = slash != absl::string_view::npos;
   if (is_fraction && !(std::isfinite(value) && std::isfinite(denominator))) return kNumberRule;
   value = in_degrees ? Radians(value, denominator) : value / denominator;
-  if (spelling == Spelling::kAngle && !in_degrees && std::fabs(value) > kFullTurn && LargeAngle().empty()) {
-    LargeAngle() = text;
-  }
+  const bool is_large = std::fabs(value) > kFullTurn && std::isfinite(value);
+  if (spelling == Spelling::kAngle && !in_degrees && is_large && large_angle.empty()) large_angle = text;
   if ((is_fraction || in_degrees) && (!std::isfinite(value) || (value == 0.0 && !is_zero))) return kRangeRule;
   return "";
 }
 
-const std::string& LargeAngleRead() { return LargeAngle(); }
+const std::string& LargeAngleRead() { return large_angle; }
 
 absl::StatusOr<double> ParseNumber(const std::string& text, const std::string& what, Spelling spelling) {
   double value = 0.0;

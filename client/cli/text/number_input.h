@@ -20,7 +20,8 @@ enum class Spelling { kNumber, kAngle };
 // breaks none.
 std::string ReadNumber(const std::string& text, Spelling spelling, double& value);
 
-// The first angle beyond a full turn that was read without "deg"; empty if none was.
+// Returns the first angle beyond a full turn that the functions of this file have read without "deg"; empty if there
+// is none.
 const std::string& LargeAngleRead();
 
 // Reads a number. `what` names the input in the error. Errors: INVALID_ARGUMENT, here and below.

@@ -58,11 +58,20 @@ class ArraysTest(RicochetCase):
         for name in ("rows.csv", "rows.json", "rows.jsonl", "rows.npy", "rows.nc"):
             with self.subTest(name):
                 self.made(*GRID, "--regime", "-o", f"open.{name}")
-                for closed in ((2,), (0, 2), (0, 1, 2)):
+                for closed in ((0,), (1,), (2,), (0, 2), (0, 1, 2)):
                     code = subprocess.run([RICOCHET, *GRID, "--regime", "-o", name], cwd=WORK, check=False,
                                           preexec_fn=lambda: [os.close(number) for number in closed]).returncode
                     self.assertEqual(code, 0)
                     self.assertEqual((WORK / name).read_bytes(), (WORK / f"open.{name}").read_bytes())
+
+    def test_a_closed_stream_cannot_be_used(self):
+        for number, arguments, words in ((1, ["scene", "list"], "cannot write the output: Bad file descriptor"),
+                                         (0, ["solve", "--scene", "-"], "cannot read standard input")):
+            with self.subTest(number):
+                done = subprocess.run([RICOCHET, *arguments], stderr=subprocess.PIPE, text=True, check=False,
+                                      preexec_fn=lambda: os.close(number))
+                self.assertNotEqual(done.returncode, 0)
+                self.assertIn(words, done.stderr)
 
     def test_an_axis_has_the_values_of_numpy(self):
         random = numpy.random.default_rng(1)

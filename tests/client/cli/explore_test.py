@@ -11,6 +11,7 @@ import re
 import select
 import signal
 import socket
+import struct
 import subprocess
 import unittest
 
@@ -80,6 +81,22 @@ class ExploreTest(RicochetCase):
             "measured": [{"path": "rates_after_rad_s[0]", "values": [0.6 * speed for speed in speeds], "sigma": [0.01]}]}, "Fit")
         self.assertEqual(status, 200, fit)
         self.assertAlmostEqual(fit["unknowns"][0]["value"], 0.6, delta=1e-12)  # A smooth surface: w+ = -e w-.
+
+    def test_every_border_over_friction_is_narrow(self):
+        # Two borders of this rod lie within 0.02.
+        rod = {"planar_body": {"mass_kg": 1, "inertia_com_kg_m2": 0.0950759067978801, "offset_t_m": -0.8652130762749417,
+                               "offset_n_m": -3.3229995166448827, "velocity_t_m_s": -0.3526307943415954,
+                               "velocity_n_m_s": -1}, "friction": {"kinetic_coefficient": 0.3},
+               "restitution": {"energetic": 0.5}}
+        status, answers = self.curl({"scene": rod}, path="/answers")
+        self.assertEqual(status, 200)
+        asked = answers["over"]["request"]
+        mu = struct.unpack(f"{len(base64.b64decode(asked['inputs'][0])) // 8}d", base64.b64decode(asked["inputs"][0]))
+        regimes = base64.b64decode(self.curl(asked, "SolveBatch")[1]["regimes"])
+        borders = [(low, high) for low, high, x, y in zip(mu, mu[1:], regimes, regimes[1:]) if x != y and low > 0]
+        self.assertGreaterEqual(len(borders), 2)
+        for low, high in borders:
+            self.assertLess(high - low, 1e-5)
 
     def test_computes_what_takes_a_deep_stack(self):
         feet = {"contact_matrix": {"w_per_kg": [3.4, -1.2, 3.4, 1.2, -1.2, 1.6, -1.2, 0.4, 3.4, -1.2, 3.4, 1.2, 1.2, 0.4,

@@ -84,7 +84,7 @@ class MechanismTest(RicochetCase):
                 (["solve", "--mechanism", "lacks.npz"], "has no array qdot but M.npy, J.npy: must have M, J and qdot"),
                 (self.saved("shape.npz", M=M[:2]), "M has the shape (2, 3): must be (3, 3) for the 3 of qdot"),
                 (self.saved("rows.npz", J=J[:1]), "J has the shape (1, 3): must be (2, 3) with rows t, n or (3, 3)"),
-                (self.saved("feet.npz", J=numpy.vstack([J, J])), "; `ricochet multicontact --mechanism` takes several contacts"),
+                (self.saved("feet.npz", J=numpy.vstack([J, J])), "; for several contacts `ricochet multicontact` takes a"),
                 (self.saved("column.npz", qdot=QDOT[:, None]), "qdot has the shape (3, 1): must be (n,)"),
                 (self.saved("complex.npz", M=M + 0j), "M has the type <c16: must be float64"),
                 (self.saved("big.npz", M=M.astype(">f8")), "M has the type >f8: must be float64"),

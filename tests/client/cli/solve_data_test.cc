@@ -86,6 +86,18 @@ TEST_F(CliSolveData, BothRefuseTheSameHeaders) {
   EXPECT_EQ(Solve("mu\n1\n", {"--skip-column", "mi"}).err, Audit("mu\n1\n", {"--skip-column", "mi"}).err);
 }
 
+TEST_F(CliSolveData, AnAngleBeyondAFullTurnIsNamedOnceUnlessItIsInDegrees) {
+  Write("two.textproto",
+        "linkage { links { length_m: 1 mass_kg: 1 com_m: 0.5 inertia_com_kg_m2: 0.1 theta_rad: 0.3 "
+        "rate_rad_s: -1 } } restitution { energetic: 0.5 }");
+  const auto said = [this](const std::string& cells) {
+    return Run({"solve", "--scene", "two.textproto", "--data", "-"}, "theta_rad\n" + cells + "\n").err;
+  };
+  EXPECT_THAT(said("0.3\n-30\n40"), HasSubstr("the angle -30 lies beyond a full turn in radians; write -30deg if"));
+  EXPECT_THAT(said("0.3\n-30\n40"), Not(HasSubstr("40")));
+  EXPECT_THAT(said("0.3\n-30deg\n6.2\ninf"), Not(HasSubstr("full turn")));
+}
+
 TEST_F(CliSolveData, ARowThatBreaksARuleHasItsLine) {
   EXPECT_THAT(Solve("friction.kinetic_coefficient\n\n-0.1\n").out,
               HasSubstr("row 0 (line 3): friction.kinetic_coefficient = -0.1: must be >= 0"));

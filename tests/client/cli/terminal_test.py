@@ -128,6 +128,8 @@ class Terminal(RicochetCase):
                 process = subprocess.Popen([RICOCHET, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                            stderr=subprocess.PIPE,
                                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+                if arguments is short:
+                    process.stdout.read(1)  # It watches for signals since it has begun to write.
                 while not watches(process.pid, signal.SIGTERM):
                     time.sleep(0.01)
                 process.send_signal(signal.SIGINT)

@@ -131,6 +131,38 @@ TEST(HardMultiContactTest, ABallInASlotComesToRest) {
   EXPECT_NEAR(springs.v(1), 0.0, springs.ErrorOf(slot, 1) + 1e-12);
 }
 
+// A plastic wall ends the motion, whichever of the two it is.
+TEST(HardMultiContactTest, ABallInASlotStopsAtAPlasticWall) {
+  for (const bool is_first : {true, false}) {
+    const Orders orders = FindOrders(is_first ? Slot(0.0, 0.5) : Slot(0.5, 0.0), kNever);
+    ASSERT_EQ(orders.outcomes.size(), 1U);
+    const Attained& rest = orders.outcomes.front().attained;
+    EXPECT_EQ(rest.end, MultiContactEnd::kSeparated);
+    EXPECT_EQ(rest.order, is_first ? std::vector<int>({0}) : std::vector<int>({0, 1}));
+    EXPECT_EQ(rest.v(1), 0.0);
+    EXPECT_EQ(rest.v(3), 0.0);
+  }
+}
+
+// The contacts 1 and 3 strike each other in turn without end, and every other of their speeds rises. An enumeration in
+// 50 digits gives the limits.
+TEST(HardMultiContactTest, EachLimitIsStatedWithinItsError) {
+  Problem problem = {.d = 2, .k = 3, .w = Eigen::MatrixXd::Zero(6, 6), .v = Vector::Zero(6)};
+  problem.laws = {{.e = 0.0}, {.e = 0.5}, {.e = 0.0}};
+  problem.w << 5, -4, 5, 0, 5, 6, -4, 5, -4, 1, -4, -5, 5, -4, 5, 0, 5, 6, 0, 1, 0, 1, 0, 1, 5, -4, 5, 0, 5, 6, 6, -5,
+      6, 1, 6, 10;
+  problem.v << 0, 1, 0, -1, 0, -4;
+  const double limit[] = {2, 0, 2, 0, 2, 0};
+  const Orders orders = FindOrders(problem, kNever);
+  const auto is_limit = [&](const DistinctOutcome& outcome) {
+    for (int j = 0; j < 6; ++j) {
+      if (std::abs(outcome.attained.v(j) - limit[j]) > outcome.attained.ErrorOf(problem, j)) return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(std::any_of(orders.outcomes.begin(), orders.outcomes.end(), is_limit));
+}
+
 // Errors that grow with each of some hundred impacts, until they exceed all there is, are not stated.
 TEST(HardMultiContactTest, AnErrorBeyondAllEnergyIsUnknown) {
   const MultiContactRequest request = {
