@@ -68,9 +68,8 @@ struct FitRequest {
   FitLoss loss = FitLoss::kUnspecified;
   std::optional<double> loss_scale = {};  // Only a robust loss has it; absent: kHuberScale or kCauchyScale.
   std::optional<int32_t> starts = {};     // In [1, kMostFitStarts]; absent: 1. Further ones spread over the bounds.
-  // The most iterations of a search, in [1, kMostFitIterations]; absent: kFitIterations.
-  std::optional<int32_t> max_iterations = {};
-  std::vector<std::string> region = {};  // Empty, or the paths of the two unknowns whose 95 % region is wanted.
+  std::optional<int32_t> max_iterations = {};  // Most of a search, in [1, kMostFitIterations]; absent: kFitIterations.
+  std::vector<std::string> region = {};        // Empty, or the paths of the two unknowns whose 95 % region is wanted.
   friend bool operator==(const FitRequest&, const FitRequest&) = default;
 };
 
