@@ -30,9 +30,10 @@ constexpr int kPlaces = 4;
 // The intervals are sought again at most this many times after a ray has found a better fit.
 constexpr int kMostRestarts = 4;
 // Where all rows stick, or none approaches, the search sees no way to a better fit. So it looks at many places, and
-// goes on from the best of them; before it refuses a fit, from more.
+// goes on from the best of them, as long as that leads to a better fit; before it refuses a fit, from more.
+constexpr int kMostLooks = 4;
 constexpr int kLookedAtAlways = 128, kLookedAtIfRefused = 512;
-constexpr size_t kStartsAlways = 2, kStartsIfRefused = 16;
+constexpr size_t kStartsAlways = 6, kStartsIfRefused = 16;
 // A further start that lowers the objective by less than this part of it has found the same fit.
 constexpr double kLeastGain = 1e-6;
 
@@ -81,9 +82,8 @@ class Fitter {
     for (int number = 0; number < problem_.starts; ++number) SearchFrom(StartOf(problem_, number), number);
     if (model_.is_stopped()) return {};  // There may be no fit yet to look at.
     Look();
-    for (const std::vector<double>& centre : {problem_.start, best_.at}) {
-      for (const std::vector<double>& start : PlacesOf(centre, kLookedAtAlways, kStartsAlways)) SearchFurther(start);
-    }
+    LookAround(problem_.start);
+    for (int look = 0; look < kMostLooks && LookAround(best_.at); ++look) continue;
     if (IsRefused()) {
       for (const std::vector<double>& start : PlacesOf(problem_.start, kLookedAtIfRefused, kStartsIfRefused)) {
         if (IsRefused()) SearchFurther(start);
@@ -113,6 +113,13 @@ class Fitter {
 
   std::vector<std::vector<double>> PlacesOf(const std::vector<double>& centre, int looked_at, size_t most) {
     return BestPlaces(centre, all_free_, looked_at, most, model_);
+  }
+
+  // Returns true if there is a better fit than before.
+  bool LookAround(const std::vector<double>& centre) {
+    const double before = best_.objective;
+    for (const std::vector<double>& start : PlacesOf(centre, kLookedAtAlways, kStartsAlways)) SearchFurther(start);
+    return best_.objective < before - kAsGood;
   }
 
   void SearchFurther(const std::vector<double>& start) {

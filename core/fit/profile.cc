@@ -21,7 +21,7 @@ constexpr double kEndTolerance = 1e-5;
 constexpr int kMostFurther = 8;
 // At an end this many places of the free unknowns are evaluated, and searches start from the best kTriedPlaces.
 constexpr int kLookedAt = 128;
-constexpr size_t kTriedPlaces = 2;
+constexpr size_t kTriedPlaces = 6;
 // On a plain ray each place on the way to an end is searched from this many starts, and the end itself from all.
 constexpr size_t kStartsOnTheWay = 2;
 

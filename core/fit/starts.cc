@@ -12,8 +12,10 @@
 namespace ricochet::fit {
 namespace {
 
-// This many times fewer places are tried for a model without exact derivatives, whose rows may take milliseconds.
+// A model without exact derivatives, whose rows may take milliseconds, is looked at in this many times fewer places, of
+// which at most kMostSlow are returned.
 constexpr int kFewer = 16;
+constexpr size_t kMostSlow = 2;
 // Places are solved in groups that have at most this many rows together, or in groups of one.
 constexpr size_t kRowsAtOnce = size_t{1} << 18;
 // Places whose objectives differ by at most this part fit alike.
@@ -70,7 +72,10 @@ std::vector<double> StartOf(const Problem& problem, int number) {
 std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, const std::vector<bool>& is_free,
                                             int count, size_t most, Model& model) {
   const Problem& problem = model.problem();
-  if (!problem.why_differences.empty()) count /= kFewer;
+  if (!problem.why_differences.empty()) {
+    count /= kFewer;
+    most = std::min(most, kMostSlow);
+  }
   const double ratio = GoldenRatio(centre.size());
   std::vector<std::vector<double>> places;
   for (int number = 1; number <= count; ++number) {
