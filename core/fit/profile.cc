@@ -22,7 +22,7 @@ constexpr int kMostFurther = 8;
 // At an end this many places of the free unknowns are evaluated, and searches start from the best kTriedPlaces.
 constexpr int kLookedAt = 128;
 constexpr size_t kTriedPlaces = 6;
-// On a plain ray each place on the way to an end is searched from this many starts, and the end itself from all.
+// A place on the way to an end is searched from this many starts, and the end itself from all.
 constexpr size_t kStartsOnTheWay = 2;
 
 // The unknowns at a distance.
@@ -80,9 +80,7 @@ class Ray {
         if (inside.distance >= kFarthest) return End(FitEndKind::kUnbounded, inside.distance);
         outside = Next(std::min(inside.distance > 0.0 ? 2.0 * inside.distance : 1.0, longest_));
       }
-      is_narrowing_ = true;
       RayEnd end = Narrow(inside, outside);
-      is_narrowing_ = false;
       if (further == kMostFurther || !GoesOn(outside, inside)) return end;
       is_plain_ = false;
     }
@@ -148,12 +146,13 @@ class Ray {
   }
 
   // Searches from starts until one ends inside. A place outside is tried from elsewhere, as the other unknowns may have
-  // ended where they change nothing, or at the edge of what has a prediction.
-  RayPoint Next(double distance) {
+  // ended where they change nothing, or at the edge of what has a prediction; on the way to an end of a plain ray only
+  // from kStartsOnTheWay.
+  RayPoint Next(double distance, bool is_on_the_way = false) {
     const std::vector<std::vector<double>> starts = StartsAt(distance);
     Minimum least = MinimumFrom(starts[0]);
     for (size_t i = 1; i < starts.size() && !IsInside(least); ++i) {
-      if (i == kStartsOnTheWay && is_narrowing_ && is_plain_) break;
+      if (i == kStartsOnTheWay && is_on_the_way && is_plain_) break;
       const Minimum& found = MinimumFrom(starts[i]);
       if (found.objective < least.objective) least = found;
     }
@@ -218,7 +217,8 @@ class Ray {
       if (width <= kEndTolerance * SizeAt(inside.distance)) break;
       const double part = (target - root(inside)) / (root(outside) - root(inside));
       const bool is_line = i % 3 != 2 && part > 0.0;
-      const RayPoint next = Next(inside.distance + width * (is_line ? std::clamp(part, 1e-3, 0.999) : 0.5));
+      const double share = is_line ? std::clamp(part, 1e-3, 0.999) : 0.5;
+      const RayPoint next = Next(inside.distance + width * share, /*is_on_the_way=*/true);
       (next.rise < rise_ ? inside : outside) = next;
     }
     return End(std::isfinite(outside.rise) ? FitEndKind::kFound : FitEndKind::kCutByBound, inside.distance);
@@ -231,7 +231,6 @@ class Ray {
   Model& model_;
   Place last_inside_, inside_before_;  // The last two places inside, or the best fit.
   Place beyond_;                       // The last place outside, or the end.
-  bool is_narrowing_ = false;
   bool is_plain_ = true;  // All searches had a prediction, and no place outside has turned out to be inside.
   std::map<std::vector<double>, Minimum> searches_;           // Each has its start.
   double longest_ = std::numeric_limits<double>::infinity();  // The distance to the nearest bound.

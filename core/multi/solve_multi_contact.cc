@@ -169,7 +169,7 @@ class Answerer {
                                .work_error_j = attained.work_error * EnergyScale(),
                                .error_is_proved = attained.error_is_proved};
     Vector error(attained.v.size());
-    // An error beyond all energy that there is says nothing.
+    // An error beyond all energy or impulse that there is says nothing.
     if (!(outcome.work_error_j <= answer_.energy_before_j)) outcome.work_error_j = kInfinity;
     for (int j = 0; j < error.size(); ++j) error(j) = KnownError(attained.ErrorOf(problem, j) * v_scale_);
     // Adding 0 makes -0 positive.
@@ -192,7 +192,7 @@ class Answerer {
     outcome.contacts.resize(static_cast<size_t>(problem.k));
     for (int i = 0; i < problem.k; ++i) {
       const size_t place = At(sorted_.from[At(i)]);
-      outcome.normal_impulse_error_n_s[place] = KnownError(attained.ErrorOfNormalImpulse(problem, i) * ImpulseScale());
+      outcome.normal_impulse_error_n_s[place] = attained.ErrorOfNormalImpulse(problem, i) * ImpulseScale();
       outcome.contacts[place] = LedgerOf(attained, i);
     }
     const auto& errors = outcome.normal_impulse_error_n_s;

@@ -168,9 +168,7 @@ std::string LedgerText(const MultiContactAnswer& answer) {
   }
   std::string text = outcomes.empty() ? "" : absl::StrCat("\nWhat each contact did\n", table.Render(2));
   for (const auto& [name, outcome] : outcomes) {
-    const std::vector<double>& errors = outcome->normal_impulse_error_n_s;
-    const bool are_known = std::isfinite(outcome->work_error_j) && !errors.empty() &&
-                           std::all_of(errors.begin(), errors.end(), [](double error) { return std::isfinite(error); });
+    const bool are_known = std::isfinite(outcome->work_error_j) && !outcome->normal_impulse_error_n_s.empty();
     if (!outcome->contacts.empty() && !are_known) {
       absl::StrAppend(&text, "  The impulses and works of ", name, " have errors that are not known.\n");
     }
