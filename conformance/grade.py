@@ -215,7 +215,7 @@ def edge_impulses(case, angle):
 
 
 def outside_pyramids(case, effects, change, angle):
-    """What is left of the change after the impulse within the pyramids that leaves the least sum of squares."""
+    """Returns what is left of the change after the impulse within the pyramids that leaves the least sum of squares."""
     edges = effects @ np.array(list(edge_impulses(case, angle))).T
     lengths = np.linalg.norm(edges, axis=0)
     edges = edges / np.where(lengths > 0, lengths, 1)  # So that effects on heavy bodies count as those on light ones.
@@ -229,7 +229,7 @@ def outside_pyramids(case, effects, change, angle):
 
 
 def outside_cones(case, change):
-    """The same for the friction cones. A case in space has one contact: the edge of its pyramid is moved."""
+    """Returns what is left outside the friction cones. In space, with one contact, the edge of the pyramid is moved."""
     effects = np.linalg.solve(case.mass, case.jacobian.T)
     impulse = least_squares(effects, change)
     middle = 0.0 if impulse is None else math.atan2(impulse[1], impulse[0])

@@ -1,4 +1,4 @@
-# What ./dev and the scripts of its commands share: the Debian packages, messages, builds, and a server that is started
+# ./dev and the scripts of its commands share this: the Debian packages, messages, builds, and a server that is started
 # and stopped. A script sources this file first, and is then at the top of the repository.
 # shellcheck shell=bash disable=SC2034  # The scripts read the variables.
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit

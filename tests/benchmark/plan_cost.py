@@ -28,7 +28,7 @@ MODELS = {
 
 
 class Profile:
-    """What a solve executes, each function with all that it calls, and how often it asks for memory."""
+    """Counts what a solve executes, each function with all that it calls, and how often it asks for memory."""
 
     def __init__(self, program, case):
         allocations, self.inclusive = callgrind.run("*SolveRepeatedly*", program, case, str(COUNT))

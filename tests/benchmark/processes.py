@@ -1,4 +1,4 @@
-"""What the measurements in Python share: the programs, a server, stubs, times, and medians."""
+"""The measurements in Python share this: the programs, a server, stubs, times, and medians."""
 
 import contextlib
 import os

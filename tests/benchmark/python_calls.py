@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a call from Python costs: in this process, against the same call of a server on loopback; batches against NumPy,
+"""Measures what a call from Python costs: in this process, against the same call of a server on loopback; batches against NumPy,
 which evaluates a closed form in plain doubles and checks nothing; the import against that of NumPy.
 
 The numbers of both sides are compared before their times.

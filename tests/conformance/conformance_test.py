@@ -46,7 +46,7 @@ def run(*arguments, stdin=None):
 
 
 def grade(answers, *options):
-    """What the command and the script say; both must say the same."""
+    """Returns what the command and the script say; both must say the same."""
     path = WORK / 'answers.json'
     path.write_text(answers if isinstance(answers, str) else json.dumps(answers), encoding='utf-8')
     command = run(RICOCHET, 'conformance', 'grade', path, '--format', 'json', *options)

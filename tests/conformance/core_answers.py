@@ -64,13 +64,13 @@ def certified_velocities(case):
 
 
 def audit(ricochet, case, velocity):
-    """What an audit says of a contact velocity after the impact."""
+    """Returns what an audit says of a contact velocity after the impact."""
     seen = ','.join(map(repr, velocity))
     return run(ricochet, ['audit', f'--observed-velocity={seen}', '--uncertainty', '1e-9'], scene(case, 'energetic'))['report']
 
 
 def several(ricochet, case):
-    """What the contacts of a case can do."""
+    """Returns what the contacts of a case can do."""
     contacts = [{'friction': c['friction'], 'energetic': c['coefficient']} for c in case['contacts']]
     return run(ricochet, ['multicontact'], {'mechanism': mechanism(case), 'contacts': contacts})['answers'][0]
 

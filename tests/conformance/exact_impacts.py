@@ -76,7 +76,7 @@ class PlanarImpact(make_vectors.PlanarPath):
 
 
 class SpatialImpact:
-    """The same for a contact in space; W is 3 x 3 and its tangential block is regular."""
+    """The impact of a contact in space; W is 3 x 3 and its tangential block is regular."""
 
     def __init__(self, w, velocity, mu):
         self.w, self.mu = w, mu

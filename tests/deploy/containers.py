@@ -1,4 +1,4 @@
-"""What the tests that run containers share: podman without systemd, and waiting for a server."""
+"""The tests that run containers share this: podman without systemd, and waiting for a server."""
 import os
 import shutil
 import subprocess

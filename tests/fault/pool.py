@@ -238,7 +238,7 @@ def headless_service():
         return figures
 
 
-PIECES = 24  # Of a mebibyte each, more than nginx lets through in one call unless it is told to.
+PIECES = 24  # Each has a mebibyte: together they are more than nginx lets through in one call unless it is told to.
 BATCH_RULE = "one call takes 24 MiB of batches, each of which is sent after the answer to the one before"
 
 

@@ -203,7 +203,7 @@ void CheckRow(const Point& point, const Rows& rows, size_t row, const std::vecto
   }
 }
 
-// What Solve is asked for the points; nothing if one of them takes time.
+// Returns what Solve is asked for the points; nothing if one of them takes time.
 std::vector<Point> PointsOf(const SweepRequest& request, const std::vector<std::vector<double>>& inputs) {
   std::vector<Point> points;
   for (size_t row = 0; row < static_cast<size_t>(PointCount(request.grid)); ++row) {

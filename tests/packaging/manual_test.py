@@ -34,7 +34,7 @@ def flags_in(text):
 
 
 def completions(program, *words):
-    """What bash offers for the last of the words."""
+    """Returns what bash offers for the last of the words."""
     script = f"""
       source /usr/share/bash-completion/bash_completion
       source {MANUAL}/bash/{program}

@@ -26,7 +26,7 @@ def members(name):
 
 
 def allowed():
-    """What systemd makes of the lines of the unit, one after the other; it always adds @default."""
+    """Returns what systemd makes of the lines of the unit, one after the other; it always adds @default."""
     calls = set()
     for line in re.findall(r"^SystemCallFilter=(.*)$", UNIT.read_text(), re.MULTILINE):
         named = set().union(*(members(word) for word in line.lstrip("~").split()))

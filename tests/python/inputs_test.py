@@ -1,4 +1,4 @@
-"""What Python takes for numbers, names and matrices, and what it says of everything else."""
+"""Tests what Python takes for numbers, names and matrices, and what it says of everything else."""
 
 import decimal
 import fractions

@@ -1,4 +1,4 @@
-"""What the tests of the Python package share.
+"""The tests of the Python package share this module.
 
 Each test program runs in two ways: as it is, with the engine in its own process, and with --server, where the functions
 of the package ask a ricochetd.

@@ -74,7 +74,7 @@ def bits(answer):
 
 
 def outcome(call, *arguments):
-    """What a call gives: its answer and its warnings, or its error."""
+    """Returns what a call gives: its answer and its warnings, or its error."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:

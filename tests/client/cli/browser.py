@@ -78,7 +78,7 @@ class Browser:
         return self.post("/execute/sync", {"script": text, "args": []})
 
     def console(self):
-        """What the pages have written there since the last look."""
+        """Returns what the pages have written there since the last look."""
         return self.post("/se/log", {"type": "browser"})
 
     def look_like(self, width, scheme):

@@ -45,7 +45,7 @@ def normalised(text):
 
 
 def record(call):
-    """What one call printed."""
+    """Holds what one call printed."""
     words, out, err, code = ((call / name).read_text() for name in ("words", "out", "err", "code"))
     text = f"$ ricochet {words}\n{normalised(out)}"
     return text + (f"Standard error:\n{normalised(err)}" if err else "") + f"Exit code: {code}\n"

@@ -24,13 +24,13 @@ class RicochetCase(unittest.TestCase):
         WORK.mkdir(parents=True)
 
     def made(self, *arguments):
-        """What the command prints, which must succeed."""
+        """Returns what the command prints, which must succeed."""
         code, out, error = ricochet(*arguments)
         self.assertEqual(code, 0, error)
         return out
 
     def refused(self, *arguments, code=2):
-        """What the command says when it fails, which must print nothing else."""
+        """Returns what the command says when it fails, which must print nothing else."""
         found, out, error = ricochet(*arguments)
         self.assertEqual((found, out), (code, ""), error)
         return error

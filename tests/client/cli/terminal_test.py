@@ -28,7 +28,7 @@ def watches(pid, number):
 
 
 class Screen:
-    """What a terminal of so many columns shows, of the few controls that a bar needs."""
+    """Holds what a terminal of so many columns shows, of the few controls that a bar needs."""
 
     def __init__(self, columns):
         self.columns, self.lines, self.at, self.bars = columns, [""], 0, 0

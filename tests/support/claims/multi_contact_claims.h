@@ -1,4 +1,4 @@
-// What orders, springs and the possible outcomes of several contacts claim, held against an oracle of 128 bits on
+// Holds what orders, springs and the possible outcomes of several contacts claim against an oracle of 128 bits on
 // random planar scenes of two to four contacts.
 
 #ifndef RICOCHET_TESTS_SUPPORT_CLAIMS_MULTI_CONTACT_CLAIMS_H_
