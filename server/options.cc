@@ -22,6 +22,7 @@
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
+#include "absl/types/span.h"
 #include "core/base/nearest.h"
 #include "ricochet/engine_info.h"
 #include "server/calls/bounded_service.h"
@@ -312,12 +313,25 @@ std::string Violated(const std::string& name, const std::string& value, const st
   return absl::StrCat("--", name, " = ", value, ": ", rule);
 }
 
-void Read(const std::vector<Given>& given, Options& options, std::vector<std::string>& violations) {
+// Names an option that was given by what has set it.
+std::string SourceOf(const std::string& name, absl::Span<const char* const> arguments) {
+  const std::string flag = "--" + name;
+  const auto sets = [&flag](const char* argument) {
+    return argument == flag || absl::StartsWith(argument, flag + "=");
+  };
+  if (std::any_of(arguments.begin(), arguments.end(), sets)) return flag;
+  return FromEnvironment(name).empty() ? absl::StrCat("--config: ", name) : EnvironmentName(name);
+}
+
+void Read(const std::vector<Given>& given, absl::Span<const char* const> arguments, Options& options,
+          std::vector<std::string>& violations) {
   for (const auto& [setting, option] : given) {
     if (option->count() == 0) continue;
     const std::string& text = option->results().back();
     const BrokenRule broken = absl::StartsWith(text, "--") ? kOptionForValue : setting->read(text, options);
-    if (broken.has_value()) violations.push_back(Violated(setting->name, text, *broken));
+    if (broken.has_value()) {
+      violations.push_back(absl::StrCat(SourceOf(setting->name, arguments), " = ", text, ": ", *broken));
+    }
   }
 }
 
@@ -533,7 +547,7 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   if (!parsed.ok() || std::holds_alternative<Notice>(*parsed)) return parsed;
   auto& options = std::get<Options>(*parsed);
   CheckEnvironment(app, violations);
-  Read(line.given, options, violations);
+  Read(line.given, absl::MakeConstSpan(argv, static_cast<size_t>(argc)), options, violations);
   LiveCallLimits& calls = options.live_calls;
   const auto or_default = [&app](const char* flag, int default_limit, int& limit) {
     if (app.count(flag) == 0) limit = default_limit;
