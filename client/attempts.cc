@@ -65,6 +65,11 @@ bool MayResume(const absl::Status& status) {
   }
 }
 
+bool IsOwnRefusal(const absl::Status& status) {
+  return absl::IsResourceExhausted(status) || absl::IsUnauthenticated(status) || absl::IsPermissionDenied(status) ||
+         absl::IsUnimplemented(status);
+}
+
 CallOptions WithDeadline(CallOptions options, std::optional<milliseconds> most) {
   if (!most.has_value()) return options;
   const Deadline end = std::chrono::steady_clock::now() + std::min(*most, kLongestTime);

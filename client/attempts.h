@@ -67,6 +67,10 @@ bool IsWorthRepeating(const absl::Status& status);
 // or INTERNAL, and a server that drains may cancel a call that it has not read yet.
 bool MayResume(const absl::Status& status);
 
+// True if the server refused a call for a reason of its own, such as its limits or its list of callers, so that another
+// one may answer it.
+bool IsOwnRefusal(const absl::Status& status);
+
 // Gives all attempts of a call one deadline, at most `most` from now; absent: that of the options, if any.
 CallOptions WithDeadline(CallOptions options, std::optional<std::chrono::milliseconds> most);
 

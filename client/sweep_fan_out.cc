@@ -193,12 +193,17 @@ void SweepFanOut::Fail(const absl::Status& status, const RangeScheduler::Task& t
   std::optional<milliseconds> wait;
   {
     const std::lock_guard lock(mutex_);
-    if (!failure_.has_value() && !MayResume(status)) failure_ = FromServer(status, server.number());
-    wait = server.attempts().AfterFailure(status,
-                                          has_begun_ ? servers_.retry.max_resumes : servers_.retry.max_attempts - 1);
+    const bool may_resume = MayResume(status);
+    if (!failure_.has_value() && !may_resume && !IsOwnRefusal(status)) failure_ = FromServer(status, server.number());
+    if (may_resume) {
+      wait = server.attempts().AfterFailure(status,
+                                            has_begun_ ? servers_.retry.max_resumes : servers_.retry.max_attempts - 1);
+    }
     is_lost_[server.number()] = !wait.has_value();
     const bool all_lost = std::all_of(is_lost_.begin(), is_lost_.end(), [](bool is_lost) { return is_lost; });
-    if (!failure_.has_value() && all_lost) failure_ = NoServerLeft(status);
+    if (!failure_.has_value() && all_lost) {
+      failure_ = may_resume ? NoServerLeft(status) : FromServer(status, server.number());
+    }
     if (failure_.has_value()) {
       scheduler_.StopAll();
       arrived_.notify_all();

@@ -26,9 +26,9 @@ constexpr char kExample[] =
   ...
 
 The header of the data names numbers of the scene that differ by row, numbers of the outcome that were measured, and
-NAME.sigma for the standard deviation of the measured NAME; --sigma gives one for all rows. An empty cell was not
-measured. Names may be short where they mean one number. The interval of an unknown holds 95 %, by profile likelihood;
-"not seen" means that the data do not tell the unknown by itself.
+NAME.sigma for the standard deviation of NAME; --sigma gives one for all rows. Numbers of the scene are exact without
+one. An empty cell was not measured. Names may be short where they mean one number. The interval of an unknown holds
+95 %, by profile likelihood; "not seen" means that the data do not tell the unknown by itself.
 CSV has one row for each unknown, with --rows one for each row of the data, and the summary is on standard error; json
 has all.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again, 130 interrupted.)";
@@ -124,8 +124,7 @@ void AddFit(CLI::App& app, Command& command) {
       ->required();
   AddRepeatable(*sub, "--bound", options->data.bounds, "Bounds of an unknown; either may be left out; repeatable")
       ->type_name("NAME=LOW:HIGH");
-  AddRepeatable(*sub, "--sigma", options->data.sigmas,
-                "The standard deviation of the error of a measured column; repeatable")
+  AddRepeatable(*sub, "--sigma", options->data.sigmas, "The standard deviation of the error of a column; repeatable")
       ->type_name("NAME=SIGMA");
   AddRepeatable(*sub, "--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
       ->type_name("NAME");

@@ -10,7 +10,6 @@
 #include "absl/strings/str_split.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/make_solver.h"
-#include "client/cli/input/mechanism_file.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/plot/picture_input.h"
 #include "client/cli/program.h"
@@ -35,8 +34,8 @@ Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct MultiContactOptions {
   CommonOptions common;
-  std::string scene;
-  std::string mechanism, friction, energetic;
+  SceneOptions scene;  // A file, or a mechanism and the coefficients of its contacts.
+  std::string friction, energetic;
   std::vector<std::string> methods;
   std::vector<std::string> states;
   std::vector<std::string> outputs;
@@ -87,7 +86,7 @@ absl::StatusOr<MultiContactScene> SceneOfMechanism(const MultiContactOptions& op
   if (energetic->size() != friction->size()) {
     return InputError("--energetic", options.energetic, absl::StrCat("be as many as --mu, ", friction->size()));
   }
-  absl::StatusOr<Mechanism> mechanism = ReadMechanism(options.mechanism, static_cast<int64_t>(friction->size()));
+  absl::StatusOr<Mechanism> mechanism = ReadHeldMechanism(options.scene, static_cast<int64_t>(friction->size()));
   if (!mechanism.ok()) return mechanism.status();
   MultiContactScene scene = {.system = *std::move(mechanism)};
   for (size_t i = 0; i < friction->size(); ++i) {
@@ -97,15 +96,17 @@ absl::StatusOr<MultiContactScene> SceneOfMechanism(const MultiContactOptions& op
 }
 
 absl::StatusOr<MultiContactScene> ReadScene(const MultiContactOptions& options) {
-  if (options.scene.empty() == options.mechanism.empty()) {
+  const SceneOptions& files = options.scene;
+  if (files.file.empty() == files.mechanism.empty()) {
     return absl::InvalidArgumentError("needs --scene FILE or --mechanism FILE.npz, and not both");
   }
-  if (!options.mechanism.empty()) return SceneOfMechanism(options);
-  if (!options.friction.empty() || !options.energetic.empty()) {
-    return absl::InvalidArgumentError("--mu and --energetic need --mechanism FILE.npz; a scene states its own");
+  if (!files.mechanism.empty()) return SceneOfMechanism(options);
+  if (!options.friction.empty() || !options.energetic.empty() || !files.kept.empty() || files.composite) {
+    return absl::InvalidArgumentError(
+        "--mu, --energetic, --keep and --composite need --mechanism FILE.npz; a scene states its own");
   }
   v1::MultiContactScene scene;
-  if (absl::Status status = ReadMessage(options.scene, scene); !status.ok()) return status;
+  if (absl::Status status = ReadMessage(files.file, scene); !status.ok()) return status;
   return FromProto(scene);
 }
 
@@ -173,14 +174,11 @@ void AddMultiContact(CLI::App& app, Command& command) {
       app, "multicontact", "What several contacts at once can do, and whether order matters", kExample, RunMultiContact,
       command);
   MarkFile(FileUse::kRead,
-           sub->add_option("--scene", options->scene,
+           sub->add_option("--scene", options->scene.file,
                            "A ricochet.v1.MultiContactScene as JSON or textproto; - for standard input"))
-      ->type_name("FILE");
-  MarkFile(FileUse::kRead,
-           sub->add_option("--mechanism", options->mechanism,
-                           "A mechanism as numpy.savez writes it: arrays M (n x n), J with rows t, n or t1, t2, n for "
-                           "each contact, and qdot (n)"))
-      ->type_name("FILE.npz");
+      ->type_name("FILE")
+      ->group("Scene");
+  AddMechanismOptions(*sub, options->scene);
   sub->add_option("--mu", options->friction, "Friction of each contact of the mechanism")->type_name("MU,...");
   sub->add_option("--energetic", options->energetic, "Energetic coefficient of each contact of the mechanism")
       ->type_name("E,...");

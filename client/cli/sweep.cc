@@ -224,7 +224,7 @@ absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRe
     absl::Status drawn = receiver.Picture();
     return drawn.ok() ? receiver.CheckStrictly() : drawn;
   }
-  receiver.output().LeaveForResume(ResumeCommand(options.arguments));
+  receiver.output().LeaveForResume(status, ResumeCommand(options.arguments));
   return status;
 }
 

@@ -200,8 +200,8 @@ absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits)
   return check.status();
 }
 
-// An iteration of a search computes every measured number and its derivatives by all unknowns. These take memory even
-// in a short fit, so fewer than kFewIterations count as that many.
+// An iteration of a search computes every measured number and its derivatives by all unknowns and by the inputs that
+// have errors. These take memory even in a short fit, so fewer than kFewIterations count as that many.
 absl::Status CheckLimits(const FitRequest& request, const Limits& limits) {
   SizeCheck check(limits);
   check.Scene(request.scene);
@@ -214,9 +214,9 @@ absl::Status CheckLimits(const FitRequest& request, const Limits& limits) {
   const int64_t starts = std::clamp(request.starts.value_or(kFitStarts), 1, kMostFitStarts);
   const int64_t iterations =
       std::clamp(request.max_iterations.value_or(kFitIterations), kFewIterations, kMostFitIterations);
-  const int64_t searches = (static_cast<int64_t>(request.unknowns.size()) + 1) * starts * iterations;
-  check.Product("measured", numbers, " numbers, times unknowns and one, starts and max_iterations, ", searches,
-                &Limits::max_fit_work);
+  check.Product("measured", numbers,
+                " numbers, times one, the unknowns and four for each input with errors, starts and max_iterations, ",
+                FitSolvesOfARow(request) * starts * iterations, &Limits::max_fit_work);
   return check.status();
 }
 

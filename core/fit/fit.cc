@@ -66,7 +66,8 @@ absl::Status CheckResiduals(const FitRequest& request, const FitResponse& respon
     const std::vector<double>& residuals = response.rows[row].residuals;
     for (size_t j = 0; j < residuals.size(); ++j) {
       if (std::isnan(residuals[j]) || std::isfinite(residuals[j] * residuals[j])) continue;
-      return OutputOverflow(absl::StrCat("rows[", row, "].residuals[", j, "]^2, of ", request.measured[j].path, ","));
+      return OutputOverflow(absl::StrCat("the square of rows[", row, "].residuals[", j, "], of ",
+                                         request.measured[j].path, "; it is too large:"));
     }
   }
   return std::isfinite(response.chi2) ? absl::OkStatus() : OutputOverflow("chi2");
@@ -134,12 +135,12 @@ class Fitter {
 
   // Sees what the data tell at the best fit.
   void Look() {
-    std::vector<double> predicted, derivatives;
-    if (!model_.Predict(best_.at, predicted) || !model_.Differentiate(best_.at, all_free_, derivatives)) {
-      derivatives.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
+    std::vector<double> residuals, slopes;
+    if (!model_.Residuals(best_.at, residuals) || !model_.Slopes(best_.at, all_free_, slopes)) {
+      slopes.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
     }
-    predicted.resize(problem_.numbers.size(), 0.0);
-    information_ = InformationOf(problem_, best_.at, predicted, derivatives, [this] { return model_.Stops(); });
+    residuals.resize(problem_.numbers.size(), 0.0);
+    information_ = InformationOf(problem_, best_.at, residuals, slopes, [this] { return model_.Stops(); });
   }
 
   // The distance at which an interval or a region should end.

@@ -49,28 +49,27 @@ Eigen::MatrixXd FewRowsOf(const Eigen::MatrixXd& slopes, absl::FunctionRef<bool(
 
 }  // namespace
 
-Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& predicted,
-                          const std::vector<double>& derivatives, absl::FunctionRef<bool()> stopped) {
+Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& residuals,
+                          const std::vector<double>& of_residuals, absl::FunctionRef<bool()> stopped) {
   const auto count = static_cast<Eigen::Index>(problem.numbers.size());
   const auto size = static_cast<Eigen::Index>(problem.unknowns());
   Eigen::MatrixXd slopes(count, size);
-  double numbers = 0.0;              // The length of the numbers in sigmas.
-  double chi2 = 0.0, weights = 0.0;  // Sums.
-  std::vector<double> residuals;
+  double numbers = 0.0;                                // The length of the numbers in sigmas.
+  double chi2 = 0.0, weights = 0.0;                    // Sums.
   Eigen::VectorXd fall = Eigen::VectorXd::Zero(size);  // Half the fall of the objective by each unknown.
   for (Eigen::Index i = 0; i < count; ++i) {
     if (i % kBlock == kBlock - 1 && stopped()) return {};
     const auto number = static_cast<size_t>(i);
-    const auto& [row, column, value, sigma] = problem.numbers[number];
-    numbers = Hypot(numbers, std::max(std::fabs(predicted[number]), std::fabs(value)) / sigma);
-    const double residual = residuals.emplace_back(problem.numbers[number].Residual(predicted[number]));
+    const double residual = residuals[number];
+    const double measured = problem.numbers[number].value / problem.numbers[number].sigma;
+    numbers = Hypot(numbers, std::max(std::fabs(measured - residual), std::fabs(measured)));
     const double weight = LossOf(problem, residual * residual).weight;
     chi2 += residual * residual;
     weights += weight;
     for (Eigen::Index k = 0; k < size; ++k) {
-      const double slope = derivatives[number * problem.unknowns() + static_cast<size_t>(k)];
-      slopes(i, k) = slope * std::sqrt(weight) / sigma;
-      fall[k] += weight * residual * slope / sigma;
+      const double slope = of_residuals[number * problem.unknowns() + static_cast<size_t>(k)];
+      slopes(i, k) = slope * std::sqrt(weight);
+      fall[k] -= weight * residual * slope;
     }
   }
   Eigen::VectorXd lengths = slopes.colwise().norm().transpose();

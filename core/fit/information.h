@@ -29,10 +29,10 @@ struct Information {
   std::vector<std::vector<double>> row_shares;  // FitEstimate explains them; one list for each unknown.
 };
 
-// `derivatives` are those of the predicted numbers at the unknowns `at` (core/fit/model.h). Once `stopped` returns
-// true, what is returned means nothing.
-Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& predicted,
-                          const std::vector<double>& derivatives, absl::FunctionRef<bool()> stopped);
+// `residuals` and `slopes` are those at the unknowns `at` (core/fit/model.h). Once `stopped` returns true, what is
+// returned means nothing.
+Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& residuals,
+                          const std::vector<double>& slopes, absl::FunctionRef<bool()> stopped);
 
 // The probability that chi-squared with so many degrees of freedom, > 0, exceeds a value, exact to some 1e-12 of 1.
 double ChiSquaredBeyond(double value, double degrees_of_freedom);

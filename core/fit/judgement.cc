@@ -30,8 +30,9 @@ constexpr double kSamePlace = 0.1;
 constexpr double kSamePart = 1e-3;
 
 void SetRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
-  std::vector<double> predicted;
+  std::vector<double> predicted, residuals;
   model.Predict(best, predicted);
+  const std::vector<double> sigmas = model.Sigmas(best);
   FitRow empty = {.predicted = std::vector<double>(problem.columns(), kNone),
                   .residuals = std::vector<double>(problem.columns(), kNone)};
   response.rows.assign(problem.rows, empty);
@@ -40,14 +41,15 @@ void SetRows(const Problem& problem, const std::vector<double>& best, Model& mod
   }
   for (size_t i = 0; i < predicted.size(); ++i) {
     const Number& number = problem.numbers[i];
-    const double residual = number.Residual(predicted[i]);
+    const double residual = (number.value - predicted[i]) / sigmas[i];
     response.rows[number.row].predicted[number.column] = predicted[i];
     response.rows[number.row].residuals[number.column] = residual;
-    response.objective += LossOf(problem, residual * residual).loss;
     const double probability = ChiSquaredBeyond(residual * residual, 1.0);
     if (probability * static_cast<double>(predicted.size()) >= kOutlierBelow) continue;
     response.outliers.push_back({static_cast<int64_t>(number.row), problem.batch.columns[number.column], residual});
   }
+  model.Residuals(best, residuals);
+  for (const double residual : residuals) response.objective += LossOf(problem, residual * residual).loss;
   std::stable_sort(response.outliers.begin(), response.outliers.end(), [](const FitOutlier& a, const FitOutlier& b) {
     return std::fabs(a.residual) > std::fabs(b.residual);
   });

@@ -15,11 +15,10 @@ namespace {
 
 // The number that a row measured at a path.
 const Number* MeasuredAt(const Problem& problem, size_t row, const std::string& path) {
-  const auto& numbers = problem.numbers;
-  auto number =
-      std::lower_bound(numbers.begin(), numbers.end(), row, [](const Number& n, size_t r) { return n.row < r; });
-  while (number != numbers.end() && number->row == row && problem.batch.columns[number->column] != path) ++number;
-  return number == numbers.end() || number->row != row ? nullptr : &*number;
+  for (size_t i = problem.first_number[row]; i < problem.first_number[row + 1]; ++i) {
+    if (problem.batch.columns[problem.numbers[i].column] == path) return &problem.numbers[i];
+  }
+  return nullptr;
 }
 
 // The numbers that a row measured at the paths, if it measured all.

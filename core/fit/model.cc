@@ -6,19 +6,12 @@
 #include <utility>
 
 #include "core/answer/exact_derivatives.h"
+#include "core/fit/differences.h"
 
 namespace ricochet::fit {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-// The cube root of the rounding of a double: the step for which central differences are most exact.
-constexpr double kStep = 6e-6;
-
-double MeanOfSides(double below, double above) {
-  if (std::isnan(below)) return std::isnan(above) ? 0.0 : above;
-  return std::isnan(above) ? below : 0.5 * (below + above);
-}
-
 // The slope that a search can use where the sides differ.
 double SlopeOf(const Derivative& derivative) {
   if (derivative.value.has_value()) return *derivative.value;
@@ -33,20 +26,23 @@ Model::Model(const Problem& problem, SolveRows solve_rows, absl::FunctionRef<boo
       stopped_(stopped),
       driven_(problem.batch.scene, problem.batch.fields) {}
 
-// Solves the rows of all points together, so that they share the lanes and the threads.
-bool Model::SolveAt(const std::vector<std::vector<double>>& points, Solved& solved) {
-  if (is_stopped_) return false;
+bool Model::SolveAt(const Table& points, const Table& inputs, Solved& solved) {
   const size_t rows = problem_.rows;
-  const size_t count = rows * points.size();
-  std::vector<std::vector<double>> fields(problem_.batch.fields.size(), std::vector<double>(count));
+  Table fields(problem_.batch.fields.size(), std::vector<double>(rows * points.size()));
   for (size_t p = 0; p < points.size(); ++p) {
     const auto place = static_cast<std::ptrdiff_t>(p * rows);
     for (size_t k = 0; k < fields.size(); ++k) {
       const bool is_unknown = k < problem_.unknowns();
       if (is_unknown) std::fill_n(fields[k].begin() + place, rows, points[p][k]);
-      if (!is_unknown) std::copy_n(problem_.inputs[k - problem_.unknowns()].begin(), rows, fields[k].begin() + place);
+      if (!is_unknown) std::copy_n(inputs[k - problem_.unknowns()].begin(), rows, fields[k].begin() + place);
     }
   }
+  return Solve(fields, solved);
+}
+
+bool Model::Solve(const Table& fields, Solved& solved) {
+  if (is_stopped_) return false;
+  const size_t count = fields[0].size();
   solved.columns.assign(problem_.columns(), std::vector<double>(count));
   solved.regimes.resize(count);
   BatchRows batch = {.inputs = {fields.begin(), fields.end()},
@@ -59,30 +55,100 @@ bool Model::SolveAt(const std::vector<std::vector<double>>& points, Solved& solv
   return !is_stopped_;
 }
 
-bool Model::SolveHere(absl::Span<const double> unknowns) {
+bool Model::SolveHere(const std::vector<double>& unknowns) {
   if (unknowns == at_) return !is_stopped_;
-  at_.assign(unknowns.begin(), unknowns.end());
-  return SolveAt({at_}, here_);
+  at_ = unknowns;
+  return SolveAt({at_}, problem_.inputs, here_);
 }
 
-bool Model::Predict(absl::Span<const double> unknowns, std::vector<double>& predicted) {
+bool Model::Settle(const Table& points, std::vector<SettledRow>& rows) {
+  const auto solve = [this](const Table& fields, Table& columns) {
+    Solved solved;
+    if (!Solve(fields, solved)) return false;
+    columns = std::move(solved.columns);
+    return true;
+  };
+  return SettleRows(problem_, points, solve, rows);
+}
+
+bool Model::SettleHere(const std::vector<double>& unknowns) {
+  if (unknowns == settled_at_) return !is_stopped_;
+  settled_at_ = unknowns;
+  if (!Settle({unknowns}, settled_)) return false;
+  settled_inputs_ = problem_.inputs;
+  for (size_t row = 0; row < settled_.size(); ++row) {
+    for (size_t i = 0; i < settled_inputs_.size(); ++i) settled_inputs_[i][row] = settled_[row].inputs[i];
+  }
+  return true;
+}
+
+const Table& Model::InputsAt(const std::vector<double>& unknowns) {
+  return problem_.has_uncertain_inputs() && SettleHere(unknowns) ? settled_inputs_ : problem_.inputs;
+}
+
+bool Model::Predict(const std::vector<double>& unknowns, std::vector<double>& predicted) {
   if (!SolveHere(unknowns)) return false;
   predicted = NumbersOf(here_, 0);
   return std::all_of(predicted.begin(), predicted.end(), [](double value) { return std::isfinite(value); });
 }
 
-bool Model::PredictAll(const std::vector<std::vector<double>>& points, std::vector<std::vector<double>>& predicted) {
-  Solved solved;
-  if (!SolveAt(points, solved)) return false;
-  predicted.clear();
-  for (size_t point = 0; point < points.size(); ++point) predicted.push_back(NumbersOf(solved, point));
+// Replaces predicted numbers by their residuals.
+static void SubtractFrom(const std::vector<Number>& numbers, std::vector<double>& predicted) {
+  for (size_t i = 0; i < numbers.size(); ++i) predicted[i] = numbers[i].Residual(predicted[i]);
+}
+
+// Appends the residuals of all rows at one point.
+static void Append(absl::Span<const SettledRow> rows, std::vector<double>& residuals) {
+  for (const SettledRow& row : rows) residuals.insert(residuals.end(), row.residuals.begin(), row.residuals.end());
+}
+
+bool Model::Residuals(const std::vector<double>& unknowns, std::vector<double>& residuals) {
+  if (!problem_.has_uncertain_inputs()) {
+    const bool exist = Predict(unknowns, residuals);
+    if (!is_stopped_) SubtractFrom(problem_.numbers, residuals);
+    return exist;
+  }
+  if (!SettleHere(unknowns)) return false;
+  residuals.clear();
+  Append(settled_, residuals);
+  return std::none_of(residuals.begin(), residuals.end(), [](double value) { return std::isnan(value); });
+}
+
+bool Model::ResidualsAll(const Table& points, Table& residuals) {
+  residuals.clear();
+  if (!problem_.has_uncertain_inputs()) {
+    Solved solved;
+    if (!SolveAt(points, problem_.inputs, solved)) return false;
+    for (size_t point = 0; point < points.size(); ++point) {
+      SubtractFrom(problem_.numbers, residuals.emplace_back(NumbersOf(solved, point)));
+    }
+    return true;
+  }
+  std::vector<SettledRow> rows;
+  if (!Settle(points, rows)) return false;
+  for (size_t point = 0; point < points.size(); ++point) {
+    Append(absl::MakeSpan(rows).subspan(point * problem_.rows, problem_.rows), residuals.emplace_back());
+  }
   return true;
+}
+
+std::vector<double> Model::Sigmas(const std::vector<double>& unknowns) {
+  std::vector<double> sigmas;
+  for (const Number& number : problem_.numbers) sigmas.push_back(number.sigma);
+  if (!problem_.has_uncertain_inputs() || !SettleHere(unknowns)) return sigmas;
+  for (size_t row = 0; row < settled_.size(); ++row) {
+    const Eigen::MatrixXd& root = settled_[row].root;
+    for (Eigen::Index i = 0; i < root.rows(); ++i) {
+      sigmas[problem_.first_number[row] + static_cast<size_t>(i)] = root.row(i).norm();
+    }
+  }
+  return sigmas;
 }
 
 std::vector<size_t> Model::Inadmissible(const std::vector<double>& unknowns) {
   Solved solved = {.statuses = std::vector<RowStatus>(problem_.rows)};
   std::vector<size_t> rows;
-  if (!SolveAt({unknowns}, solved)) return rows;
+  if (!SolveAt({unknowns}, InputsAt(unknowns), solved)) return rows;
   for (size_t row = 0; row < solved.statuses.size(); ++row) {
     if (solved.statuses[row] == RowStatus::kInadmissible) rows.push_back(row);
   }
@@ -109,7 +175,23 @@ std::optional<BadRow> Model::Bad(const std::vector<double>& predicted) const {
   return std::nullopt;
 }
 
-bool Model::Differentiate(absl::Span<const double> unknowns, const std::vector<bool>& is_free,
+bool Model::Slopes(const std::vector<double>& unknowns, const std::vector<bool>& is_free, std::vector<double>& slopes) {
+  if (!Differentiate(unknowns, is_free, slopes)) return false;
+  const size_t size = unknowns.size();
+  if (!problem_.has_uncertain_inputs()) {
+    for (size_t i = 0; i < slopes.size(); ++i) slopes[i] = -slopes[i] / problem_.numbers[i / size].sigma;
+    return true;
+  }
+  for (size_t row = 0; row < settled_.size(); ++row) {
+    const Eigen::MatrixXd& root = settled_[row].root;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> of_row(
+        slopes.data() + problem_.first_number[row] * size, root.rows(), static_cast<Eigen::Index>(size));
+    of_row = -root.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd(of_row));
+  }
+  return true;
+}
+
+bool Model::Differentiate(const std::vector<double>& unknowns, const std::vector<bool>& is_free,
                           std::vector<double>& derivatives) {
   if (problem_.why_differences.empty()) return Exact(unknowns, is_free, derivatives);
   std::vector<double> above;
@@ -118,7 +200,7 @@ bool Model::Differentiate(absl::Span<const double> unknowns, const std::vector<b
   return true;
 }
 
-bool Model::Exact(absl::Span<const double> unknowns, const std::vector<bool>& is_free,
+bool Model::Exact(const std::vector<double>& unknowns, const std::vector<bool>& is_free,
                   std::vector<double>& derivatives) {
   DerivativePaths paths = {.of = problem_.batch.columns, .by = {}};
   std::vector<size_t> places;
@@ -147,30 +229,29 @@ bool Model::Exact(absl::Span<const double> unknowns, const std::vector<bool>& is
   return true;
 }
 
-bool Model::Sides(absl::Span<const double> unknowns, const std::vector<bool>& is_free, std::vector<double>& below,
+bool Model::Sides(const std::vector<double>& unknowns, const std::vector<bool>& is_free, std::vector<double>& below,
                   std::vector<double>& above) {
-  if (!SolveHere(unknowns)) return false;
-  // Each side of a free unknown is a point.
-  std::vector<std::vector<double>> points;
+  // Each side of a free unknown is a point, after the one between them.
+  Table points = {unknowns};
   for (size_t k = 0; k < unknowns.size(); ++k) {
     if (!is_free[k]) continue;
-    const double step = kStep * std::max(std::fabs(unknowns[k]), 1e-3 * problem_.scale[k]);
+    const double step = kDifferenceStep * std::max(std::fabs(unknowns[k]), 1e-3 * problem_.scale[k]);
     for (const double side : {-step, step}) {
-      points.push_back(at_);
+      points.push_back(unknowns);
       const double value = unknowns[k] + side;
       points.back()[k] = value < problem_.low[k] || value > problem_.high[k] ? kNone : value;
     }
   }
-  Solved beside;
-  if (!SolveAt(points, beside)) return false;
+  Solved solved;
+  if (!SolveAt(points, InputsAt(unknowns), solved)) return false;
   below.assign(problem_.numbers.size() * unknowns.size(), 0.0);
   above = below;
-  const std::vector<double> here = NumbersOf(here_, 0);
-  size_t point = 0;
+  const std::vector<double> here = NumbersOf(solved, 0);
+  size_t point = 1;
   for (size_t k = 0; k < unknowns.size(); ++k) {
     if (!is_free[k]) continue;
     for (std::vector<double>* const side : {&below, &above}) {
-      const std::vector<double> there = NumbersOf(beside, point);
+      const std::vector<double> there = NumbersOf(solved, point);
       for (size_t i = 0; i < here.size(); ++i) {
         (*side)[i * unknowns.size() + k] = (there[i] - here[i]) / (points[point][k] - unknowns[k]);
       }
@@ -180,10 +261,11 @@ bool Model::Sides(absl::Span<const double> unknowns, const std::vector<bool>& is
   return true;
 }
 
-const Scene& Model::SceneOf(size_t row, absl::Span<const double> unknowns) {
+const Scene& Model::SceneOf(size_t row, const std::vector<double>& unknowns) {
+  const Table& inputs = InputsAt(unknowns);
   for (size_t k = 0; k < problem_.batch.fields.size(); ++k) {
     const bool is_unknown = k < problem_.unknowns();
-    driven_.Set(k, is_unknown ? unknowns[k] : problem_.inputs[k - problem_.unknowns()][row]);
+    driven_.Set(k, is_unknown ? unknowns[k] : inputs[k - problem_.unknowns()][row]);
   }
   return driven_.scene();
 }

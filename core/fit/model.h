@@ -1,4 +1,4 @@
-// Model: the measured numbers as the scene predicts them, and their derivatives by the unknowns.
+// Model: the measured numbers as the scene predicts them, their residuals, and the derivatives of these by the unknowns.
 
 #ifndef RICOCHET_CORE_FIT_MODEL_H_
 #define RICOCHET_CORE_FIT_MODEL_H_
@@ -10,6 +10,7 @@
 #include "absl/types/span.h"
 #include "core/fit/fit.h"
 #include "core/fit/problem.h"
+#include "core/fit/settled_row.h"
 #include "core/rows/driven_scene.h"
 #include "ricochet/batch.h"
 #include "ricochet/regime.h"
@@ -17,7 +18,9 @@
 
 namespace ricochet::fit {
 
-// Numbers stand in the order of Problem::numbers, derivatives row by row with a column for each unknown.
+// Numbers and residuals stand in the order of Problem::numbers, slopes row by row with a column for each unknown. The
+// residuals of a row whose inputs have errors are independent combinations of those of its numbers
+// (core/fit/settled_row.h). Slopes, sides and scenes are those at the inputs that fit best.
 // Thread safety: one thread at a time.
 class Model {
  public:
@@ -30,41 +33,53 @@ class Model {
   // Asks `stopped`, for work between the functions below that takes long.
   bool Stops() { return is_stopped_ = is_stopped_ || stopped_(); }
 
-  // Sets the predicted numbers and returns true if all exist. The rows of Bad and regimes() are those of the last call.
-  bool Predict(absl::Span<const double> unknowns, std::vector<double>& predicted);
-  // Predicts the numbers at each of some points; a number that does not exist is not finite. Returns false once it is
-  // stopped.
-  bool PredictAll(const std::vector<std::vector<double>>& points, std::vector<std::vector<double>>& predicted);
+  // Sets the numbers predicted for the stated inputs and returns true if all exist. The rows of Bad and regimes() are
+  // those of the last call.
+  bool Predict(const std::vector<double>& unknowns, std::vector<double>& predicted);
+  // Sets the residuals and returns true if all numbers have a prediction.
+  bool Residuals(const std::vector<double>& unknowns, std::vector<double>& residuals);
+  // Sets the residuals at each of some points, NaN for a number without prediction. Returns false once it is stopped.
+  bool ResidualsAll(const Table& points, Table& residuals);
+  // The standard deviation of each measured number less the one predicted for the stated inputs.
+  std::vector<double> Sigmas(const std::vector<double>& unknowns);
   const std::vector<Regime>& regimes() const { return here_.regimes; }
   // The rows whose outcome breaks a limit: energy appears, or friction works along the slip.
   std::vector<size_t> Inadmissible(const std::vector<double>& unknowns);
   // Returns the first measured number that has no prediction, and why.
   std::optional<BadRow> Bad(const std::vector<double>& predicted) const;
 
-  // Sets the derivatives by the free unknowns, 0 for others: exact ones if there are, the mean of both sides where they
-  // differ; else differences, 0 for a number without neighbours. Returns false once it is stopped.
-  bool Differentiate(absl::Span<const double> unknowns, const std::vector<bool>& is_free,
-                     std::vector<double>& derivatives);
-  // Sets the difference quotients towards lower and higher unknowns, NaN beyond a bound or a rule.
-  bool Sides(absl::Span<const double> unknowns, const std::vector<bool>& is_free, std::vector<double>& below,
+  // Sets the derivatives of the residuals by the free unknowns, 0 for others: exact ones if there are, the mean of both
+  // sides where they differ; else differences, 0 for a number without neighbours. Returns false once it is stopped.
+  bool Slopes(const std::vector<double>& unknowns, const std::vector<bool>& is_free, std::vector<double>& slopes);
+  // Sets the difference quotients of the numbers towards lower and higher unknowns, NaN beyond a bound or a rule.
+  bool Sides(const std::vector<double>& unknowns, const std::vector<bool>& is_free, std::vector<double>& below,
              std::vector<double>& above);
 
   // The scene of a row.
-  const Scene& SceneOf(size_t row, absl::Span<const double> unknowns);
+  const Scene& SceneOf(size_t row, const std::vector<double>& unknowns);
 
  private:
   // All rows at each of some points, one point after the other: a column for each measured column.
   struct Solved {
-    std::vector<std::vector<double>> columns;
+    Table columns;
     std::vector<Regime> regimes;
     std::vector<BadRow> bad_rows;
     std::vector<RowStatus> statuses;  // Set for as many as the caller has made room for.
   };
 
-  bool SolveAt(const std::vector<std::vector<double>>& points, Solved& solved);
-  bool SolveHere(absl::Span<const double> unknowns);
+  bool Solve(const Table& fields, Solved& solved);
+  // Solves the rows of all points together, so that they share the lanes and the threads.
+  bool SolveAt(const Table& points, const Table& inputs, Solved& solved);
+  bool SolveHere(const std::vector<double>& unknowns);
+  bool Settle(const Table& points, std::vector<SettledRow>& rows);
+  bool SettleHere(const std::vector<double>& unknowns);
+  // The inputs that fit best, a column for each.
+  const Table& InputsAt(const std::vector<double>& unknowns);
   std::vector<double> NumbersOf(const Solved& solved, size_t point) const;
-  bool Exact(absl::Span<const double> unknowns, const std::vector<bool>& is_free, std::vector<double>& derivatives);
+  // Sets the derivatives of the predicted numbers.
+  bool Differentiate(const std::vector<double>& unknowns, const std::vector<bool>& is_free,
+                     std::vector<double>& derivatives);
+  bool Exact(const std::vector<double>& unknowns, const std::vector<bool>& is_free, std::vector<double>& derivatives);
 
   const Problem& problem_;
   SolveRows solve_rows_;
@@ -74,6 +89,10 @@ class Model {
   // The last point that was predicted. A search asks for the derivatives where it asked for the numbers last.
   std::vector<double> at_;
   Solved here_;
+  // The last point at which rows were settled, if inputs have errors.
+  std::vector<double> settled_at_;
+  std::vector<SettledRow> settled_;
+  Table settled_inputs_;
 };
 
 }  // namespace ricochet::fit

@@ -86,7 +86,7 @@ class Door {
     if (request_.unknowns.empty() || request_.measured.empty()) return;
     BatchSetup setup = {.scene = request_.scene};
     for (const FitUnknown& unknown : request_.unknowns) setup.fields.push_back(unknown.path);
-    for (const InputColumn& input : request_.inputs) setup.fields.push_back(input.path);
+    for (const FitInput& input : request_.inputs) setup.fields.push_back(input.path);
     for (const FitMeasured& measured : request_.measured) setup.columns.push_back(measured.path);
     std::vector<std::pair<std::string, std::string>> names;
     for (size_t i = 0; i < setup.fields.size(); ++i) {
@@ -151,6 +151,7 @@ class Door {
   }
 
   void SetInput(size_t i) {
+    SetInputSigmas(i);
     const std::vector<double>& values = request_.inputs[i].values;
     const std::string field = absl::StrCat("inputs[", i, "].values");
     if (!HasRows(field, values.size(), true)) return;
@@ -159,6 +160,21 @@ class Door {
       column[row] = values.size() == 1 ? values[0] : values[row];
       if (!std::isfinite(column[row])) RefuseNumber(absl::StrCat(field, "[", row, "]"), column[row], "be finite");
     }
+  }
+
+  void SetInputSigmas(size_t i) {
+    std::vector<double>& column = problem_.input_sigmas.emplace_back();
+    const std::vector<double>& sigmas = request_.inputs[i].sigma;
+    const std::string field = absl::StrCat("inputs[", i, "].sigma");
+    if (sigmas.empty() || !HasRows(field, sigmas.size(), true)) return;
+    for (size_t row = 0; row < sigmas.size(); ++row) {
+      const bool is_right = sigmas[row] == 0.0 || (sigmas[row] >= kLeastSigma && sigmas[row] <= kMostSigma);
+      if (is_right) continue;
+      RefuseNumber(absl::StrCat(field, "[", row, "]"), sigmas[row],
+                   absl::StrCat("be 0, or in [", kLeastSigma, ", ", kMostSigma, "]"));
+    }
+    if (std::all_of(sigmas.begin(), sigmas.end(), [](double sigma) { return sigma == 0.0; })) return;
+    column = sigmas.size() == 1 ? std::vector<double>(problem_.rows, sigmas[0]) : sigmas;
   }
 
   void SetNumbers() {
@@ -171,8 +187,10 @@ class Door {
     }
     if (!has_rows) return;
     for (size_t row = 0; row < problem_.rows; ++row) {
+      problem_.first_number.push_back(problem_.numbers.size());
       for (size_t column = 0; column < request_.measured.size(); ++column) SetNumber(row, column);
     }
+    problem_.first_number.push_back(problem_.numbers.size());
     if (problem_.numbers.size() >= request_.unknowns.size() || request_.measured.empty()) return;
     Refuse("measured", absl::StrCat("has ", problem_.numbers.size(), " numbers in ", problem_.rows, " rows"),
            absl::StrCat("have at least ", request_.unknowns.size(), ", one for each unknown"));
@@ -186,10 +204,10 @@ class Door {
     if (std::isnan(value)) return;
     const std::string name = absl::StrCat("measured[", column, "]");
     if (std::isinf(value)) {
-      RefuseNumber(absl::StrCat(name, ".values[", row, "]"), value, "be finite, or NaN where nothing was measured");
+      RefuseNumber(absl::StrCat(name, ".values[", row, "]"), value, "be finite where something was measured");
     }
     // One sigma of all rows is refused once.
-    const bool is_right = sigma > 0.0 && std::isfinite(sigma);
+    const bool is_right = sigma > 0.0;
     const bool has_squares = sigma >= kLeastSigma && sigma <= kMostSigma;
     if (!has_squares && (!is_one || refused_sigmas_.insert(column).second)) {
       RefuseNumber(absl::StrCat(name, ".sigma[", is_one ? 0 : row, "]"), sigma,

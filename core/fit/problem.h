@@ -3,6 +3,7 @@
 #ifndef RICOCHET_CORE_FIT_PROBLEM_H_
 #define RICOCHET_CORE_FIT_PROBLEM_H_
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -27,7 +28,10 @@ struct Problem {
   CheckedBatch batch;  // Its fields are the unknowns and then the inputs, its columns the measured ones.
   size_t rows = 0;
   std::vector<std::vector<double>> inputs;  // A column for each input, with a value for each row.
-  std::vector<Number> numbers;              // Row by row.
+  // The standard deviation of the error of each of these, 0 for none; an empty column for an input without errors.
+  std::vector<std::vector<double>> input_sigmas;
+  std::vector<Number> numbers;       // Row by row.
+  std::vector<size_t> first_number;  // That of each row, and behind the last row their count.
   // For each unknown; bounds may be infinite. A scale is > 0 and of the size of the unknown.
   std::vector<double> start, low, high, scale;
   std::vector<bool> is_angle;
@@ -40,6 +44,9 @@ struct Problem {
 
   size_t unknowns() const { return start.size(); }
   size_t columns() const { return batch.columns.size(); }
+  bool has_uncertain_inputs() const {
+    return std::any_of(input_sigmas.begin(), input_sigmas.end(), [](const auto& column) { return !column.empty(); });
+  }
   std::vector<std::string> unknown_paths() const {
     return {batch.fields.begin(), batch.fields.begin() + static_cast<std::ptrdiff_t>(unknowns())};
   }

@@ -67,7 +67,7 @@ class Residuals : public Eigen::DenseFunctor<double> {
   // Where an impact has no such number, residuals are so large that the search turns back.
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const {
     constexpr double kTurnsBack = 1e100;
-    if (!model_.Predict(Unknowns(x), predicted_)) {
+    if (!model_.Residuals(Unknowns(x), residuals_)) {
       residuals.setConstant(kTurnsBack);
       has_turned_back_ = true;
       return 0;
@@ -80,16 +80,15 @@ class Residuals : public Eigen::DenseFunctor<double> {
 
   int df(const Eigen::VectorXd& x, Eigen::MatrixXd& slopes) const {
     const std::vector<double> at = Unknowns(x);
-    std::vector<double> derivatives;
+    std::vector<double> of_residuals;
     slopes.setZero(values(), inputs());
     // A fit that was stopped has no slopes, so that the search ends at once.
-    if (!model_.Predict(at, predicted_) || !model_.Differentiate(at, is_free_, derivatives)) return 0;
+    if (!model_.Residuals(at, residuals_) || !model_.Slopes(at, is_free_, of_residuals)) return 0;
     for (Index j = 0; j < slopes.cols(); ++j) {
       const size_t k = Free(j);
       if (IsBeyond(x[j] * problem_.scale[k], k)) continue;
       for (Index i = 0; i < slopes.rows(); ++i) {
-        const double slope = derivatives[static_cast<size_t>(i) * at.size() + k] * problem_.scale[k];
-        slopes(i, j) = -CostedAt(i).slope * slope / Number(i).sigma;
+        slopes(i, j) = CostedAt(i).slope * of_residuals[static_cast<size_t>(i) * at.size() + k] * problem_.scale[k];
       }
     }
     return 0;
@@ -97,8 +96,7 @@ class Residuals : public Eigen::DenseFunctor<double> {
 
  private:
   size_t Free(Index i) const { return free_[static_cast<size_t>(i)]; }
-  const fit::Number& Number(Index i) const { return problem_.numbers[static_cast<size_t>(i)]; }
-  Costed CostedAt(Index i) const { return CostOf(problem_, Number(i).Residual(predicted_[static_cast<size_t>(i)])); }
+  Costed CostedAt(Index i) const { return CostOf(problem_, residuals_[static_cast<size_t>(i)]); }
   bool IsBeyond(double value, size_t k) const { return value < problem_.low[k] || value > problem_.high[k]; }
 
   Model& model_;
@@ -106,24 +104,23 @@ class Residuals : public Eigen::DenseFunctor<double> {
   const std::vector<double>& start_;
   const std::vector<size_t>& free_;
   std::vector<bool> is_free_;
-  mutable std::vector<double> predicted_;
+  mutable std::vector<double> residuals_;
   mutable bool has_turned_back_ = false;
 };
 
-double ObjectiveOf(const Problem& problem, const std::vector<double>& predicted) {
+double ObjectiveOf(const Problem& problem, const std::vector<double>& residuals) {
   double sum = 0.0;
-  for (size_t i = 0; i < predicted.size(); ++i) {
-    if (!std::isfinite(predicted[i])) return std::numeric_limits<double>::infinity();
-    const double residual = problem.numbers[i].Residual(predicted[i]);
+  for (const double residual : residuals) {
+    if (!std::isfinite(residual)) return std::numeric_limits<double>::infinity();
     sum += LossOf(problem, residual * residual).loss;
   }
   return sum;
 }
 
 double ObjectiveAt(const std::vector<double>& at, Model& model) {
-  std::vector<double> predicted;
-  if (!model.Predict(at, predicted)) return std::numeric_limits<double>::infinity();
-  return ObjectiveOf(model.problem(), predicted);
+  std::vector<double> residuals;
+  if (!model.Residuals(at, residuals)) return std::numeric_limits<double>::infinity();
+  return ObjectiveOf(model.problem(), residuals);
 }
 
 struct Step {
@@ -207,12 +204,12 @@ Loss LossOf(const Problem& problem, double squared_residual) {
 }
 
 std::vector<double> ObjectivesAt(const std::vector<std::vector<double>>& points, Model& model) {
-  std::vector<std::vector<double>> predicted;
-  if (!model.PredictAll(points, predicted)) {
+  Table residuals;
+  if (!model.ResidualsAll(points, residuals)) {
     return std::vector<double>(points.size(), std::numeric_limits<double>::infinity());
   }
   std::vector<double> objectives;
-  for (const std::vector<double>& numbers : predicted) objectives.push_back(ObjectiveOf(model.problem(), numbers));
+  for (const std::vector<double>& of_point : residuals) objectives.push_back(ObjectiveOf(model.problem(), of_point));
   return objectives;
 }
 

@@ -24,9 +24,11 @@ inline constexpr double kAsGood = 1e-6;
 // The sum of the losses at each point; infinite where a number has no prediction.
 std::vector<double> ObjectivesAt(const std::vector<std::vector<double>>& points, Model& model);
 
-// Searches from a start within the bounds, and holds the unknowns that are not free.
-// It ends once an iteration lowers the objective by less than this part of it.
+// The tolerance of a search whose minimum is wanted to all digits.
 inline constexpr double kFineSearch = 1e-13;
+
+// Searches from a start within the bounds, and holds the unknowns that are not free. The search ends once an iteration
+// lowers the objective by less than the tolerance times the objective.
 Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, double tolerance, Model& model);
 
 // Moves a fit towards a start as far as it stays as good: an angle by whole turns, and a number that has left the range

@@ -26,9 +26,10 @@ void CheckMobility(const Scene& scene, const AnyReduction& any, Check& check) {
   std::visit(
       [&](const auto& reduction) {
         check.Require(reduction.v0 >= 0.0 || reduction.w.back() > 0.0, [&] {
-          return MakeViolation(VelocityField(scene),
-                               absl::StrCat("makes v0 = ", ShortestDecimal(reduction.v0), " where W_nn = 0"),
-                               "be >= 0, no impulse along n ends the approach", ViolationKind::kContact);
+          const char* const held = HoldsCoordinates(scene.system) ? "; hold fewer coordinates of the mechanism" : "";
+          return MakeViolation(
+              VelocityField(scene), absl::StrCat("makes v0 = ", ShortestDecimal(reduction.v0), " where W_nn = 0"),
+              absl::StrCat("be >= 0, no impulse along n ends the approach", held), ViolationKind::kContact);
         });
       },
       any);

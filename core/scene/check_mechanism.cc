@@ -26,6 +26,7 @@ std::string EntryOf(const char* field, size_t entry) { return absl::StrCat(field
 bool CheckSizes(const Mechanism& mechanism, size_t contacts, Check& check) {
   const size_t n = mechanism.rates.size();
   check.Require(n > 0, [] { return MakeViolation("mechanism.rates", "has 0 entries", "have at least one"); });
+  if (n == 0) return false;
   const size_t mass = mechanism.mass_matrix.size();
   check.Require(mass == n * n, [&] {
     return MakeViolation(kMass, absl::StrCat("has ", Counted(mass, "entry")),
@@ -39,7 +40,7 @@ bool CheckSizes(const Mechanism& mechanism, size_t contacts, Check& check) {
                          absl::StrCat("have 2", times, 2 * row, " in a plane or 3", times, 3 * row,
                                       " in space, for the ", n, " of rates"));
   });
-  return n > 0 && mass == n * n && (jacobian == 2 * row || jacobian == 3 * row);
+  return mass == n * n && (jacobian == 2 * row || jacobian == 3 * row);
 }
 
 // M as it is given is symmetric: an entry that differs from the one across the diagonal is named, not averaged.

@@ -202,7 +202,7 @@ void CheckRange(const std::string& field, const MultiContactScene& scene, const 
                 const Eigen::VectorXd& velocity, Check& check) {
   const bool is_stated = std::holds_alternative<ContactMatrix>(scene.system);
   const auto* const mechanism = std::get_if<Mechanism>(&scene.system);
-  const bool has_held = mechanism != nullptr && !mechanism->kept_coordinates.empty();
+  const bool has_held = mechanism != nullptr && (!mechanism->kept_coordinates.empty() || mechanism->composite);
   const double most = is_stated ? 64.0 * static_cast<double>(reduction.w.rows()) * kEpsilon : 0x1p-20;
   const Eigen::VectorXd sizes = reduction.jacobian.cwiseAbs() * velocity.cwiseAbs();
   const double outside = DistanceFromRange(reduction.w, reduction.ContactVelocity(velocity), sizes);

@@ -6,8 +6,29 @@
 
 namespace ricochet {
 
+// Takes the number of directions that most lists of a scene of bodies have, so that a wrong list does not accuse the
+// others. Returns 0 if none has 2 or 3.
+static int DirectionsOf(const FreeBodies& free, const std::vector<MultiContactPoint>& contacts) {
+  int in_plane = 0, in_space = 0;
+  const auto count = [&](size_t size) {
+    if (size == 2) ++in_plane;
+    if (size == 3) ++in_space;
+  };
+  for (const FreeBody& body : free.bodies) {
+    count(body.position_m.size());
+    count(body.linear_m_s.size());
+  }
+  for (const MultiContactPoint& contact : contacts) {
+    count(contact.point_m.size());
+    count(contact.normal.size());
+  }
+  if (in_plane == 0 && in_space == 0) return 0;
+  return in_plane >= in_space ? 2 : 3;
+}
+
 int DirectionsOf(const MultiContactScene& scene) {
   struct Finder {
+    const std::vector<MultiContactPoint>& points;
     size_t contacts;
     // Counts the lists of `each` in `numbers`.
     int Rows(size_t numbers, size_t each) const {
@@ -16,13 +37,10 @@ int DirectionsOf(const MultiContactScene& scene) {
     }
     int operator()(std::monostate) const { return 0; }
     int operator()(const ContactMatrix& matrix) const { return Rows(matrix.velocity_m_s.size(), 1); }
-    int operator()(const FreeBodies& free) const {
-      const size_t size = free.bodies.empty() ? 0 : free.bodies.front().position_m.size();
-      return size == 2 || size == 3 ? static_cast<int>(size) : 0;
-    }
+    int operator()(const FreeBodies& free) const { return DirectionsOf(free, points); }
     int operator()(const Mechanism& mechanism) const { return Rows(mechanism.jacobian.size(), mechanism.rates.size()); }
   };
-  return std::visit(Finder{scene.contacts.size()}, scene.system);
+  return std::visit(Finder{scene.contacts, scene.contacts.size()}, scene.system);
 }
 
 std::vector<std::string> ContactOutputNames(size_t contacts, int directions) {

@@ -15,6 +15,11 @@ struct Map<FitUnknown> : Between<FitUnknown, v1::FitUnknown> {
 };
 
 template <>
+struct Map<FitInput> : Between<FitInput, v1::FitInput> {
+  static constexpr auto kFields = Entries(RICOCHET_FIELD(path), RICOCHET_FIELD(values), RICOCHET_FIELD(sigma));
+};
+
+template <>
 struct Map<FitMeasured> : Between<FitMeasured, v1::FitMeasured> {
   static constexpr auto kFields = Entries(RICOCHET_FIELD(path), RICOCHET_FIELD(values), RICOCHET_FIELD(sigma));
 };

@@ -354,10 +354,11 @@ class Client:
             scene: gives every number that is neither unknown nor a column of the table.
             table: an array for each column: numbers of the scene that differ by row, numbers of the outcome that were
                 measured (NaN or masked where they were not), and ``"NAME.sigma"``, the standard deviations of the
-                measured ``NAME``. A pandas frame will do. Names may be short.
+                column ``NAME``. A pandas frame will do. Names may be short.
             unknown: the numbers to find, each with the value where the search starts if it is a dictionary; None and
                 names alone start at the scene's own number.
-            sigma: standard deviations of measured columns that the table has none of: numbers or arrays.
+            sigma: standard deviations of columns that the table has none of: numbers or arrays. A number of the scene
+                without any is exact.
             bounds: ``(low, high)`` of unknowns, in their units; None is the bound that the number has by its rule.
             loss: ``"squares"``, ``"huber"`` or ``"cauchy"``; by default squares.
             loss_scale: where a robust loss bends, in sigmas, in [1e-6, 1e9]; by default 1.345 for Huber's and 2.385
@@ -376,21 +377,22 @@ class Client:
         """
         scene = Scene(scene)
         fields, numbers = list(scene._fields()), list(scene._columns())
-        inputs, measured, listed = [], {}, {}
+        inputs, measured, listed = {}, {}, {}
         for path, given in names.by_full_name(table, fields + numbers, "table").items():
             column = np.atleast_1d(values.column(given, path))
             if path.endswith(".sigma"):
                 listed[path[: -len(".sigma")]] = column
             elif path in fields:
-                inputs.append({"path": path, "values": column})
+                inputs[path] = {"path": path, "values": column}
             else:
                 measured[path] = {"path": path, "values": column}
+        columns = inputs | measured
         for what, sigmas in (("table", listed), ("sigma", sigma or {})):
-            rule = "a measured column"
-            for path, given in names.by_name_of(sigmas, list(measured), numbers, what, rule).items():
-                if "sigma" in measured[path]:
+            rule = "a column of the table"
+            for path, given in names.by_name_of(sigmas, list(columns), fields + numbers, what, rule).items():
+                if "sigma" in columns[path]:
                     values.refuse(what, f"= {path!r}: is {path}.sigma of the table a second time")
-                measured[path]["sigma"] = np.atleast_1d(values.column(given, f"{path}.sigma"))
+                columns[path]["sigma"] = np.atleast_1d(values.column(given, f"{path}.sigma"))
         if isinstance(unknown, Mapping):
             given_starts = list(names.by_full_name(unknown, fields, "unknown").items())
         else:
@@ -403,12 +405,12 @@ class Client:
                 values.refuse(path, f"= {values.shown(ends)}: must be two numbers or None, the least first")
             unknowns[paths.index(path)].update(low=pair[0], high=pair[1])
         arguments = {
-            "unknowns": unknowns, "inputs": inputs, "measured": list(measured.values()),
+            "unknowns": unknowns, "inputs": list(inputs.values()), "measured": list(measured.values()),
             "loss": loss, "loss_scale": loss_scale, "starts": starts,
             "max_iterations": max_iterations,
             "region": names.full_names(values.names(region, "region"), paths, "region"),
         }
-        with errors.naming(unknowns=paths, inputs=[str(column["path"]) for column in inputs], measured=list(measured)):
+        with errors.naming(unknowns=paths, inputs=list(inputs), measured=list(measured)):
             return self._solver.fit(scene, arguments)
 
     def solve_batch(

@@ -17,7 +17,7 @@ _YEAR_S = 365.0 * 24 * 3600
 
 
 def resolve(given: Mapping[str, str | None]) -> dict[str, Any]:
-    """Returns the options as the module in C++ takes them; an empty text is not set.
+    """Returns the options as the module in C++ takes them; an argument that is an empty text is not set.
 
     An argument wins over the environment, ``RICOCHET_TLS_CA`` for ``tls_ca``, which wins over a line ``tls-ca =
     "FILE"`` of the TOML file that ``config`` or ``RICOCHET_CONFIG`` names.
@@ -25,6 +25,9 @@ def resolve(given: Mapping[str, str | None]) -> dict[str, Any]:
     for name, value in given.items():
         if not isinstance(value, str) and not (name == "server" and value is None):
             refuse(name, f"= {shown(value)}: must be a text")
+    for variable in (f"RICOCHET_{name.upper()}" for name in ("config", *_NAMES)):
+        if os.environ.get(variable) == "":  # It may stand for a protection that is wanted.
+            refuse(variable, "is empty: must have a value, or not be set")
     config = given.get("config") or os.environ.get("RICOCHET_CONFIG")
     lines = _read_config(config) if config else {}
     options: dict[str, Any] = {
@@ -64,6 +67,10 @@ def _read_config(path: str) -> dict[str, str]:
     if unknown:
         rule = f"must be one of {', '.join(known)}"
         raise InvalidRequest.of([Violation("config", f"= {path}: {name} {rule}") for name in unknown])
+    empty = [name for name, value in lines.items() if value == ""]
+    if empty:
+        rule = "is empty: must have a value, or not be set"
+        raise InvalidRequest.of([Violation("config", f"= {path}: {name} {rule}") for name in empty])
     return {
         name.replace("-", "_"): str(value).lower() if isinstance(value, bool) else str(value)
         for name, value in lines.items()

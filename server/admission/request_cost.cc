@@ -112,12 +112,11 @@ RequestCost CostOf(const AuditBatchRequest& request) {
   return CostOf(request.scene);
 }
 
-// Each row may be solved once an iteration for every unknown and for itself; the iterations that a search takes are not
-// known.
+// The iterations that a search takes are not known.
 RequestCost CostOf(const FitRequest& request) {
   size_t rows = 1;
   for (const FitMeasured& measured : request.measured) rows = std::max(rows, measured.values.size());
-  const double searches = request.starts.value_or(kFitStarts) * (static_cast<double>(request.unknowns.size()) + 1.0);
+  const double searches = request.starts.value_or(kFitStarts) * static_cast<double>(FitSolvesOfARow(request));
   const double size = static_cast<double>(rows) * searches * request.max_iterations.value_or(kFitIterations);
   return Expensive(CostCause::kFit, size * Cube(Links(request.scene)));
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "client/channel.h"
 #include "ricochet/client.h"
 #include "ricochet/error.h"
@@ -86,7 +87,7 @@ TEST_F(Connection, FlagComesBeforeEnvironmentBeforeFile) {
   EXPECT_THAT(RunShell(run).err, HasSubstr("--deadline = never"));
   Write("config", "server = \"" + server.address() + "\"\n");
   EXPECT_EQ(RunShell(run).out, "SERVING\n");
-  EXPECT_EQ(RunShell("RICOCHET_SERVER= RICOCHET_CONFIG=config \"$R\" health").out, "SERVING\n");
+  EXPECT_EQ(RunShell("RICOCHET_CONFIG=config \"$R\" health").out, "SERVING\n");
 }
 
 // No host has 192.0.2.1, which is reserved for documentation, so that only a proxy could answer for it.
@@ -98,6 +99,20 @@ TEST_F(Connection, ProxyOfTheEnvironmentIsNotAskedForThisHost) {
     EXPECT_EQ(RunShell(run + host + port).out, "SERVING\n") << host;
   }
   EXPECT_THAT(RunShell(run + "192.0.2.1:50051").err, HasSubstr("127.0.0.1:1: "));
+}
+
+// An empty variable may stand for a protection that is wanted: with RICOCHET_TLS_CA= nothing would be encrypted.
+TEST_F(Connection, AnEmptySettingIsRefusedWhereverItStands) {
+  for (const char* const name : {"CONFIG", "SERVER", "DEADLINE", "TLS", "TLS_CA", "TLS_CERT", "TLS_KEY", "SERVER_NAME",
+                                 "TOKEN_FILE", "TOKEN", "MAX_RECEIVE"}) {
+    const CliResult result = RunShell(absl::StrCat("RICOCHET_", name, "= \"$R\" info"));
+    EXPECT_EQ(result.exit_code, 2) << name;
+    EXPECT_THAT(result.err, HasSubstr(absl::StrCat("RICOCHET_", name, " is empty: must have a value, or not be set")));
+  }
+  Write("config", "server = \"127.0.0.1:1\"\ntls-ca = \"\"\n");
+  EXPECT_THAT(Run({"info", "--config", "config"}).err, HasSubstr("--config = config: tls-ca is empty: must have"));
+  Write("config", "[client]\nserver = \"127.0.0.1:1\"\n");
+  EXPECT_THAT(Run({"info", "--config", "config"}).err, HasSubstr("[client]: the file must have no sections"));
 }
 
 TEST_F(Connection, UnknownLineOfTheFileIsRefused) {

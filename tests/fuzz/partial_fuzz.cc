@@ -175,7 +175,7 @@ void CheckResume(Bytes bytes) {
     const absl::StatusOr<bool> written = Write(*output, stop % (kPoints / kPiece));
     if (!written.ok()) Fail(written.status().ToString());
     // Else the run was killed, and its last points are those of its last checkpoint.
-    if ((stop & 128U) != 0) output->LeaveForResume("ricochet");
+    if ((stop & 128U) != 0) output->LeaveForResume(absl::CancelledError(), "ricochet");
   }
   const std::string part = path + ".part";
   while (!bytes.empty()) {

@@ -214,6 +214,15 @@ class Options(unittest.TestCase):
                     self.assertEqual(client.solve(PENDULUM).regime, "REBOUND")
                     self.assertIsNotNone(client.info().server_limits)
 
+    def test_an_empty_setting_is_refused(self):
+        for name in ("CONFIG", "SERVER", "TLS_CA", "TOKEN"):
+            with self.subTest(name), mock.patch.dict(os.environ, {f"RICOCHET_{name}": ""}):
+                self.refuse(f"RICOCHET_{name}")
+        with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
+            file.write('tls-ca = ""\n')
+            file.flush()
+            self.refuse("config", config=file.name)
+
     def test_an_unknown_line_of_the_file_is_refused(self):
         with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
             file.write('sever = "x"\n')

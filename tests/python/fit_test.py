@@ -50,11 +50,25 @@ class Fit(unittest.TestCase):
         self.assertGreater(len(answer.region), 40)
         self.assertTrue(math.isnan(answer.rows[2].residuals[0]))
 
+    def test_an_input_with_errors_widens_the_interval(self):
+        name = "planar_contact.tangential_m_s"
+        exact, by_table, by_argument = (
+            ricochet.fit(SCENE, data, ["mu"], sigma=sigma)
+            for data, sigma in (
+                (table(), SIGMA),
+                ({**table(), f"{name}.sigma": np.full(6, 0.03)}, SIGMA),
+                (table(), {**SIGMA, name: 0.03}),
+            )
+        )
+        self.assertEqual(repr(by_table), repr(by_argument))
+        # Rows that slide keep the error of the velocity before, which joins that after.
+        self.assertAlmostEqual(by_table.unknowns[0].sigma / exact.unknowns[0].sigma, math.sqrt(10), delta=0.2)
+
     def test_errors_name_what_is_wrong(self):
         for change, text in (
             ({"unknown": ["mu", "friction.kinetic"]}, "unknowns[1].path"),
             ({"sigma": {AFTER[0]: 0.01}}, f"{AFTER[1]}.sigma has 0 numbers"),
-            ({"sigma": {**SIGMA, "contact.duration_s": 1}}, "must be a measured column"),
+            ({"sigma": {**SIGMA, "contact.duration_s": 1}}, "must be a column of the table"),
             ({"bounds": {"restitution.poisson": (0, 1)}}, "must be an unknown"),
             ({"bounds": {"poisson": (0, 1)}}, "bounds = 'poisson': must be an unknown"),
             ({"bounds": {"mu": (0, 1), "friction.kinetic_coefficient": (0, 0.5)}}, "a second time"),
@@ -62,7 +76,8 @@ class Fit(unittest.TestCase):
             ({"bounds": {"mu": (0, 1, 2)}}, "must be two numbers or None"),
             ({"bounds": 0.3}, "bounds must be a dictionary"),
             ({"sigma": {**SIGMA, "contact_velocity_after.normal": 0.1}}, "sigma = .* a second time"),
-            ({"sigma": {**SIGMA, "newton": 0.1}}, "sigma = 'newton': must be a measured column"),
+            ({"sigma": {**SIGMA, "newton": 0.1}}, "sigma = 'newton': must be a column of the table"),
+            ({"sigma": {**SIGMA, "planar_contact.tangential_m_s": -1}}, "planar_contact.tangential_m_s.sigma[0] = -1"),
             ({"sigma": 0.01}, "sigma must be a dictionary"),
             ({"unknown": {3: 0.1}}, "unknown must have texts"),
             ({"loss": 3}, "loss = 3"),

@@ -189,8 +189,7 @@ class Forks(unittest.TestCase):
     def test_a_fork_beside_a_thread_that_computes(self):
         # A server is asked by gRPC, which leaves alone a child that is forked while it is called.
         expected = helped_batch()
-        with mock.patch.dict(os.environ, RICOCHET_SERVER=""):
-            local = ricochet.Client()
+        local = ricochet.Client(None)
         started = threading.Event()
         busy = threading.Thread(target=long_sweep, args=(local, 2_000, lambda *_: started.set()))
         busy.start()

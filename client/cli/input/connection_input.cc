@@ -48,14 +48,22 @@ std::string FromEnvironment(const std::string& name) {
   return value == nullptr ? "" : value;
 }
 
-// Finds a variable that is nearly one of these, because it would silently do nothing. Others may belong to anybody.
+absl::Status IsEmpty(const std::string& source) {
+  return absl::InvalidArgumentError(absl::StrCat(source, " is empty: must have a value, or not be set"));
+}
+
+// Finds a variable that is nearly one of these, because it would silently do nothing; others may belong to anybody. One
+// of these that is empty may stand for a protection that is wanted.
 absl::Status CheckEnvironment() {
   std::vector<std::string> known = {VariableOf("config")};
   for (const Setting& setting : kSettings) known.push_back(VariableOf(setting.name));
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string variable(*entry, std::strcspn(*entry, "="));
-    if (!absl::StartsWith(variable, "RICOCHET_") || std::find(known.begin(), known.end(), variable) != known.end())
+    if (!absl::StartsWith(variable, "RICOCHET_")) continue;
+    if (std::find(known.begin(), known.end(), variable) != known.end()) {
+      if (*std::getenv(variable.c_str()) == '\0') return IsEmpty(variable);
       continue;
+    }
     const std::string meant = DidYouMean(variable, known);
     if (meant.empty()) continue;
     return absl::InvalidArgumentError(absl::StrCat(variable, " in the environment is not an option", meant));
@@ -73,6 +81,10 @@ absl::StatusOr<ConnectionInput> ReadConfig(const std::string& path) {
     return absl::InvalidArgumentError(absl::StrCat("--config: ", error.what()));
   }
   for (const CLI::ConfigItem& line : lines) {
+    if (!line.parents.empty()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("--config = ", path, ": [", line.parents.front(), "]: the file must have no sections"));
+    }
     const auto setting = std::find_if(std::begin(kSettings), std::end(kSettings),
                                       [&line](const Setting& one) { return line.fullname() == one.name; });
     if (setting == std::end(kSettings) || line.inputs.size() != 1) {
@@ -81,6 +93,7 @@ absl::StatusOr<ConnectionInput> ReadConfig(const std::string& path) {
                        " must be one of server, deadline, tls, tls-ca, tls-cert, tls-key, server-name, token-file, "
                        "token and max-receive, with one value"));
     }
+    if (line.inputs.front().empty()) return IsEmpty(absl::StrCat("--config = ", path, ": ", setting->name));
     input.*(setting->value) = line.inputs.front();
   }
   return input;
@@ -122,8 +135,8 @@ void AddConnectionOptions(CLI::App& app, ConnectionInput& input) {
       ->type_name("HOST:PORT|unix:PATH,...");
   app.add_option(
          "--deadline", input.deadline,
-         "Give up after this time (250ms, 30s, 5m; a bare number is in seconds); needs --server [10s, but none for "
-         "sweep and cost]")
+         "Give up a call after this time (250ms, 30s, 5m; a bare number is in seconds); needs --server [10s, but none "
+         "for sweep, cost and the tables of solve]")
       ->type_name("TIME");
   app.add_option("--max-receive", input.max_receive, "Refuse a larger message of an answer; needs --server [4194304]")
       ->type_name("BYTES");

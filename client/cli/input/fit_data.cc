@@ -41,21 +41,47 @@ absl::Status GivenTwice(const std::string& option, const std::string& name) {
 }
 
 absl::StatusOr<Column> ColumnOf(const std::string& name, const Scene& scene) {
-  const std::vector<std::string> fields = FieldPaths(scene);
   const std::vector<std::string> numbers = Columns(scene);
-  const bool is_sigma = absl::EndsWith(name, kSigmaEnding);
-  std::vector<std::string> known = numbers;
-  if (!is_sigma) known.insert(known.begin(), fields.begin(), fields.end());
-  const std::string bare(absl::StripSuffix(name, kSigmaEnding));
-  absl::StatusOr<std::string> path = FullName(bare, known, "--data, column");
+  std::vector<std::string> known = FieldPaths(scene);
+  known.insert(known.end(), numbers.begin(), numbers.end());
+  absl::StatusOr<std::string> path = FullName(name, known, "--data, column");
   if (!path.ok()) return path.status();
   if (!absl::c_linear_search(known, *path)) {
     return absl::InvalidArgumentError(absl::StrCat(
         "--data has the column \"", absl::CEscape(name), "\": must be a number of the scene, one of the outcome, or ",
-        "one with .sigma", DidYouMean(bare, known), "; --skip-column leaves a column out"));
+        "either with .sigma", DidYouMean(name, known), "; --skip-column leaves a column out"));
   }
   const auto use = absl::c_linear_search(numbers, *path) ? Column::Use::kMeasured : Column::Use::kInput;
-  return Column{.use = is_sigma ? Column::Use::kSigma : use, .path = *std::move(path), .values = {}};
+  return Column{.use = use, .path = *std::move(path), .values = {}};
+}
+
+// `others` are the paths of the columns that may have sigmas.
+absl::StatusOr<Column> SigmaColumnOf(const std::string& name, const std::vector<std::string>& others) {
+  const std::string bare(absl::StripSuffix(name, kSigmaEnding));
+  absl::StatusOr<std::string> path = FullName(bare, others, "--data, column");
+  if (!path.ok()) return path.status();
+  if (absl::c_linear_search(others, *path)) return Column{.use = Column::Use::kSigma, .path = *path, .values = {}};
+  return absl::InvalidArgumentError(
+      absl::StrCat("--data has ", absl::CEscape(name), " but not ", absl::CEscape(bare), DidYouMean(bare, others)));
+}
+
+// Finds what the columns of the table are. Those that are skipped have no value.
+absl::StatusOr<std::vector<std::optional<Column>>> ColumnsOf(const CsvReader& reader, const Scene& scene) {
+  std::vector<std::optional<Column>> columns(reader.header().size());
+  std::set<std::pair<Column::Use, std::string>> given;
+  std::vector<std::string> paths;
+  for (const bool for_sigmas : {false, true}) {
+    for (size_t i = 0; i < columns.size(); ++i) {
+      const std::string& name = reader.header()[i];
+      if (reader.IsSkipped(i) || absl::EndsWith(name, kSigmaEnding) != for_sigmas) continue;
+      absl::StatusOr<Column> column = for_sigmas ? SigmaColumnOf(name, paths) : ColumnOf(name, scene);
+      if (!column.ok()) return column.status();
+      if (!given.emplace(column->use, column->path).second) return GivenTwice("--data, column", name);
+      if (!for_sigmas) paths.push_back(column->path);
+      columns[i] = *std::move(column);
+    }
+  }
+  return columns;
 }
 
 // Reads the cells of a row into the columns.
@@ -87,15 +113,8 @@ absl::StatusOr<std::vector<Column>> ReadTable(const FitDataOptions& options, con
   absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, options.file == "-" ? "standard input" : options.file);
   if (!reader.ok()) return reader.status();
   if (absl::Status status = reader->Skip(options.skipped_columns); !status.ok()) return status;
-  std::vector<std::optional<Column>> columns(reader->header().size());
-  std::set<std::pair<Column::Use, std::string>> given;
-  for (size_t i = 0; i < columns.size(); ++i) {
-    if (reader->IsSkipped(i)) continue;
-    absl::StatusOr<Column> column = ColumnOf(reader->header()[i], scene);
-    if (!column.ok()) return column.status();
-    if (!given.emplace(column->use, column->path).second) return GivenTwice("--data, column", reader->header()[i]);
-    columns[i] = *std::move(column);
-  }
+  absl::StatusOr<std::vector<std::optional<Column>>> columns = ColumnsOf(*reader, scene);
+  if (!columns.ok()) return columns.status();
   bool has_rows = false;
   std::vector<std::string> cells;
   while (true) {
@@ -103,11 +122,11 @@ absl::StatusOr<std::vector<Column>> ReadTable(const FitDataOptions& options, con
     if (!has_row.ok()) return has_row.status();
     if (!*has_row) break;
     has_rows = true;
-    if (absl::Status status = ReadRow(*reader, cells, columns); !status.ok()) return status;
+    if (absl::Status status = ReadRow(*reader, cells, *columns); !status.ok()) return status;
   }
   if (!has_rows) return absl::InvalidArgumentError("--data has a header but no rows: must have one at least");
   std::vector<Column> kept;
-  for (std::optional<Column>& column : columns) {
+  for (std::optional<Column>& column : *columns) {
     if (column.has_value()) kept.push_back(*std::move(column));
   }
   return kept;
@@ -164,9 +183,18 @@ absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, Fit
   return absl::OkStatus();
 }
 
+// The columns of the table that may have sigmas, by their paths: where these stand.
+std::vector<std::pair<std::string, std::vector<double>*>> SigmasOf(FitRequest& request) {
+  std::vector<std::pair<std::string, std::vector<double>*>> sigmas;
+  for (FitMeasured& measured : request.measured) sigmas.emplace_back(measured.path, &measured.sigma);
+  for (FitInput& input : request.inputs) sigmas.emplace_back(input.path, &input.sigma);
+  return sigmas;
+}
+
 absl::Status ReadSigmas(const FitDataOptions& options, FitRequest& request) {
+  const auto sigmas = SigmasOf(request);
   std::vector<std::string> paths;
-  for (const FitMeasured& measured : request.measured) paths.push_back(measured.path);
+  for (const auto& [path, sigma] : sigmas) paths.push_back(path);
   std::set<std::string> given;
   for (const std::string& typed : options.sigmas) {
     const auto pair = ReadPair("--sigma", typed, paths);
@@ -174,17 +202,18 @@ absl::Status ReadSigmas(const FitDataOptions& options, FitRequest& request) {
     const auto at = static_cast<size_t>(std::find(paths.begin(), paths.end(), pair->first) - paths.begin());
     if (at == paths.size()) {
       return InputError("--sigma", typed,
-                        absl::StrCat("be NAME=SIGMA with the name of a measured column (", absl::StrJoin(paths, ", "),
-                                     ")", DidYouMean(pair->first, paths)));
+                        absl::StrCat("be NAME=SIGMA with the name of a column (", absl::StrJoin(paths, ", "), ")",
+                                     DidYouMean(pair->first, paths)));
     }
-    const absl::StatusOr<double> sigma = ParseNumber(pair->second, absl::StrCat("--sigma ", pair->first));
+    const absl::StatusOr<double> sigma =
+        ParseNumber(pair->second, absl::StrCat("--sigma ", pair->first), SpellingOf(pair->first));
     if (!sigma.ok()) return sigma.status();
     if (!given.insert(pair->first).second) return GivenTwice("--sigma", pair->first);
-    if (!request.measured[at].sigma.empty()) {
+    if (!sigmas[at].second->empty()) {
       return absl::InvalidArgumentError(
           absl::StrCat("--sigma ", pair->first, " cannot be combined with a column ", pair->first, kSigmaEnding));
     }
-    request.measured[at].sigma = {*sigma};
+    *sigmas[at].second = {*sigma};
   }
   for (const FitMeasured& measured : request.measured) {
     if (!measured.sigma.empty()) continue;
@@ -202,25 +231,23 @@ absl::StatusOr<FitRequest> ReadFit(const FitDataOptions& options, const Scene& s
   FitRequest request = {.scene = scene};
   for (Column& column : *columns) {
     if (column.use == Column::Use::kInput) {
-      request.inputs.push_back({column.path, std::move(column.values)});
+      request.inputs.push_back({column.path, std::move(column.values), {}});
     } else if (column.use == Column::Use::kMeasured) {
       request.measured.push_back({column.path, std::move(column.values), {}});
     }
   }
+  const auto sigmas = SigmasOf(request);
   for (Column& column : *columns) {
     if (column.use != Column::Use::kSigma) continue;
-    const auto measured = std::find_if(request.measured.begin(), request.measured.end(),
-                                       [&column](const FitMeasured& m) { return m.path == column.path; });
-    if (measured == request.measured.end()) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("--data has ", column.path, kSigmaEnding, " but not ", column.path));
-    }
+    const auto own = absl::c_find_if(sigmas, [&column](const auto& sigma) { return sigma.first == column.path; });
+    const auto measured = absl::c_find_if(request.measured, [&](const auto& m) { return m.path == column.path; });
     for (size_t row = 0; row < column.values.size(); ++row) {
-      if (std::isnan(measured->values[row]) || !std::isnan(column.values[row])) continue;
+      const bool has_number = measured == request.measured.end() || !std::isnan(measured->values[row]);
+      if (!has_number || !std::isnan(column.values[row])) continue;
       return absl::InvalidArgumentError(absl::StrCat("--data, row ", row, ": ", column.path, kSigmaEnding,
                                                      " is missing: must be there where ", column.path, " is"));
     }
-    measured->sigma = std::move(column.values);
+    *own->second = std::move(column.values);
   }
   if (absl::Status status = ReadUnknowns(options, scene, request); !status.ok()) return status;
   if (absl::Status status = ReadSigmas(options, request); !status.ok()) return status;
@@ -241,7 +268,8 @@ absl::Status InTheTable(const FitRequest& request, const absl::Status& status) {
                           place < (is_input ? request.inputs.size() : request.measured.size());
     if (!is_known) continue;
     const std::string& path = is_input ? request.inputs[place].path : request.measured[place].path;
-    const bool is_option = is_sigma && request.measured[place].sigma.size() == 1;
+    const std::vector<double>& sigma = is_input ? request.inputs[place].sigma : request.measured[place].sigma;
+    const bool is_option = is_sigma && sigma.size() == 1;
     is_changed = true;
     violation.field = is_option
                           ? absl::StrCat("--sigma ", path)

@@ -23,7 +23,8 @@ struct FitDataOptions {
 };
 
 // Reads the table. A column whose name is a number of the scene is an input, one whose name is a number of the outcome
-// is measured, and NAME.sigma has the standard deviations of NAME. An empty cell of the last two was not measured.
+// is measured, and NAME.sigma has the standard deviations of NAME. An empty cell of a measured number, or of a sigma
+// beside one, was not measured.
 // Errors: INVALID_ARGUMENT that names the option, or the column and the line.
 absl::StatusOr<FitRequest> ReadFit(const FitDataOptions& options, const Scene& scene);
 

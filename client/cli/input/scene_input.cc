@@ -75,18 +75,8 @@ absl::StatusOr<Scene> PendulumFromFlags(const SceneOptions& options) {
 }
 
 absl::StatusOr<Scene> MechanismFromFlags(const SceneOptions& options) {
-  absl::StatusOr<Mechanism> mechanism = ReadMechanism(options.mechanism);
+  absl::StatusOr<Mechanism> mechanism = ReadHeldMechanism(options, 1);
   if (!mechanism.ok()) return mechanism.status();
-  const auto coordinates = static_cast<int64_t>(mechanism->rates.size());
-  for (const std::string& kept : options.kept) {
-    const absl::StatusOr<int64_t> coordinate = ParseCount(kept, "--keep");
-    if (!coordinate.ok()) return coordinate.status();
-    if (*coordinate < 0 || *coordinate >= coordinates) {
-      return InputError("--keep", kept, absl::StrCat("be in [0, ", coordinates, ")"));
-    }
-    mechanism->kept_coordinates.push_back(static_cast<int32_t>(*coordinate));
-  }
-  mechanism->composite = options.composite;
   Scene scene = {.system = *std::move(mechanism)};
   if (absl::Status status = SetByFlags(options, scene); !status.ok()) return status;
   return scene;
@@ -114,6 +104,22 @@ std::string NameOf(const std::string& path) { return path == "-" ? "standard inp
 
 }  // namespace
 
+absl::StatusOr<Mechanism> ReadHeldMechanism(const SceneOptions& options, int64_t contacts) {
+  absl::StatusOr<Mechanism> mechanism = ReadMechanism(options.mechanism, contacts);
+  if (!mechanism.ok()) return mechanism.status();
+  const auto coordinates = static_cast<int64_t>(mechanism->rates.size());
+  for (const std::string& kept : options.kept) {
+    const absl::StatusOr<int64_t> coordinate = ParseCount(kept, "--keep");
+    if (!coordinate.ok()) return coordinate.status();
+    if (*coordinate < 0 || *coordinate >= coordinates) {
+      return InputError("--keep", kept, absl::StrCat("be in [0, ", coordinates, ")"));
+    }
+    mechanism->kept_coordinates.push_back(static_cast<int32_t>(*coordinate));
+  }
+  mechanism->composite = options.composite;
+  return mechanism;
+}
+
 absl::Span<const SceneFlag> SceneFlags() { return kSceneFlags; }
 
 bool SceneOptions::any() const { return !file.empty() || !mechanism.empty() || AnyFlag(*this); }
@@ -139,7 +145,8 @@ void AddAnySceneOptions(CLI::App& app, SceneOptions& options) {
 void AddMechanismOptions(CLI::App& app, SceneOptions& options) {
   MarkFile(FileUse::kRead,
            app.add_option("--mechanism", options.mechanism,
-                          "A mechanism as numpy.savez writes it: arrays M (n x n), J (2 x n or 3 x n) and qdot (n)"))
+                          "A mechanism as numpy.savez writes it: arrays M (n x n), J with rows t, n or t1, t2, n for "
+                          "each contact, and qdot (n)"))
       ->type_name("FILE.npz")
       ->group("Scene");
   AddList(app, "--keep", options.kept, "Coordinates of the mechanism that a brake or a controller holds")

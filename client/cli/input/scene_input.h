@@ -52,6 +52,8 @@ void AddSceneOptions(CLI::App& app, SceneOptions& options);
 void AddAnySceneOptions(CLI::App& app, SceneOptions& options);
 // --mechanism FILE, --keep and --composite.
 void AddMechanismOptions(CLI::App& app, SceneOptions& options);
+// Reads these. Errors: INVALID_ARGUMENT.
+absl::StatusOr<Mechanism> ReadHeldMechanism(const SceneOptions& options, int64_t contacts);
 
 // Returns the scene that the options describe, without validating it. A pendulum's inertia is 1 kg m² and its w- is
 // -1 rad/s unless given.

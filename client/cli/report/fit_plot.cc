@@ -31,7 +31,7 @@ struct Abscissa {
 };
 
 Abscissa AbscissaOf(const FitRequest& request) {
-  for (const InputColumn& input : request.inputs) {
+  for (const FitInput& input : request.inputs) {
     if (std::adjacent_find(input.values.begin(), input.values.end(), std::not_equal_to<>()) == input.values.end()) {
       continue;
     }

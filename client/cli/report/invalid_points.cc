@@ -91,7 +91,8 @@ std::string DoubtfulPoints::Text() const {
   const int64_t examined = std::min(count_, kMostReasons);
   if (examined < invalid) {
     absl::StrAppend(&text, invalid - examined,
-                    " of them come from an earlier run, or are too many to look for a reason\n");
+                    count_ > kMostReasons ? " of them were not looked at for a reason: they are too many\n"
+                                          : " of them come from an earlier run, whose reasons are not known\n");
   }
   add(summary_.inadmissible, summary_.inadmissible.count == 1 ? " is inadmissible" : " are inadmissible", "");
   add(summary_.not_converged, " did not converge",

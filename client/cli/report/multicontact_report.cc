@@ -296,6 +296,12 @@ std::vector<double> NumbersOf(const AttainedOutcome& outcome) {
 
 std::string MultiContactText(const MultiContactRequest& request, const MultiContactResponse& response) {
   std::string text;
+  if (!std::holds_alternative<FreeBodies>(request.scene.system)) {
+    // Six rows may be those of three contacts in a plane or of two in space.
+    const bool in_plane = DirectionsOf(request.scene) == 2;
+    text = absl::StrCat(request.scene.contacts.size(), in_plane ? " contacts in a plane: rows t, n of each.\n\n"
+                                                                : " contacts in space: rows t1, t2, n of each.\n\n");
+  }
   for (size_t state = 0; state < response.answers.size(); ++state) {
     const MultiContactAnswer& answer = response.answers[state];
     if (response.answers.size() > 1) absl::StrAppend(&text, state > 0 ? "\n" : "", "State ", state + 1, "\n\n");

@@ -145,14 +145,16 @@ absl::Status SweepOutput::Commit() {
   return file_->Commit();
 }
 
-void SweepOutput::LeaveForResume(const std::string& command) {
+void SweepOutput::LeaveForResume(const absl::Status& status, const std::string& command) {
   Progress::Erase();
   if (!file_.has_value()) return;
   if (!progress_.has_engine()) return file_->Discard();
   // If this fails, the manifest before stands, and the command below goes on from there.
   static_cast<void>(file_->Checkpoint(progress_));
-  std::fprintf(stderr, "%s is the first part of the sweep, the points before %lld. To go on:\n  %s\n",
-               file_->part_path().c_str(), static_cast<long long>(file_->manifest().next_index()), command.c_str());
+  // The same command would be refused again where another engine has answered.
+  const std::string advice = absl::IsFailedPrecondition(status) ? "" : absl::StrCat(" To go on:\n  ", command);
+  std::fprintf(stderr, "%s is the first part of the sweep, the points before %lld.%s\n", file_->part_path().c_str(),
+               static_cast<long long>(file_->manifest().next_index()), advice.c_str());
 }
 
 std::string ResumeCommand(const std::vector<std::string>& arguments) {

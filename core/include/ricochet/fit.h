@@ -3,12 +3,14 @@
 // Each row of the data is one impact of the scene. Inputs are numbers of the scene that differ by row; measured numbers
 // are numbers of its outcome, each with the standard deviation sigma of its error. A fit minimizes the sum of the
 // squared residuals (measured - predicted)/sigma, or of a robust loss of them, over the unknowns within their bounds.
+// If inputs have errors, too, it also minimizes over what these inputs truly were (docs/fit.md).
 // The structs mirror ricochet.v1.FitRequest and FitResponse; docs/fit.md explains the answer. Units are those of the
 // numbers; residuals, chi2 and shares have none.
 
 #ifndef RICOCHET_FIT_H_
 #define RICOCHET_FIT_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -36,6 +38,14 @@ struct FitUnknown {
   friend bool operator==(const FitUnknown&, const FitUnknown&) = default;
 };
 
+// A number of the scene that differs by row.
+struct FitInput {
+  std::string path = {};            // Spelled as for an axis of a sweep; not that of an unknown.
+  std::vector<double> values = {};  // Finite; one for each row, or one for all.
+  std::vector<double> sigma = {};   // >= 0; one for each row, or one for all. Empty: the values are exact.
+  friend bool operator==(const FitInput&, const FitInput&) = default;
+};
+
 // A number of the outcome that was measured.
 struct FitMeasured {
   std::string path = {};            // Spelled as a column of a sweep: "contact_velocity_after.normal_m_s".
@@ -61,9 +71,9 @@ inline constexpr double kHuberScale = 1.345, kCauchyScale = 2.385;
 inline constexpr double kLeastFitLossScale = 1e-6, kMostFitLossScale = 1e9;
 
 struct FitRequest {
-  Scene scene = {};                        // Gives every number that is neither unknown nor an input.
-  std::vector<FitUnknown> unknowns = {};   // At least one.
-  std::vector<InputColumn> inputs = {};    // Numbers that differ by row, finite; none is an unknown.
+  Scene scene = {};                       // Gives every number that is neither unknown nor an input.
+  std::vector<FitUnknown> unknowns = {};  // At least one.
+  std::vector<FitInput> inputs = {};
   std::vector<FitMeasured> measured = {};  // At least one, with as many measured numbers as there are unknowns or more.
   FitLoss loss = FitLoss::kUnspecified;
   std::optional<double> loss_scale = {};  // Only a robust loss has it; absent: kHuberScale or kCauchyScale.
@@ -72,6 +82,14 @@ struct FitRequest {
   std::vector<std::string> region = {};        // Empty, or the paths of the two unknowns whose 95 % region is wanted.
   friend bool operator==(const FitRequest&, const FitRequest&) = default;
 };
+
+// The solves of each row in an iteration of a search: one for the row and for each unknown, and about four for each
+// input that has errors.
+inline int64_t FitSolvesOfARow(const FitRequest& request) {
+  const auto has_errors = [](const FitInput& input) { return !input.sigma.empty(); };
+  return 1 + static_cast<int64_t>(request.unknowns.size()) +
+         4 * std::count_if(request.inputs.begin(), request.inputs.end(), has_errors);
+}
 
 // Says how an interval ends. The numbers are those of ricochet.v1.FitEnd.Kind.
 enum class FitEndKind {
@@ -107,9 +125,10 @@ struct FitEstimate {
 };
 
 struct FitRow {
-  Regime regime = Regime::kUnspecified;   // At the best fit.
-  std::vector<double> predicted;          // One for each measured column.
-  std::vector<double> residuals;          // (measured - predicted)/sigma; NaN where nothing was measured.
+  Regime regime = Regime::kUnspecified;  // At the best fit.
+  std::vector<double> predicted;         // One for each measured column, for the inputs as they are stated.
+  // (measured - predicted)/sigma, where sigma contains what the errors of inputs do; NaN where nothing was measured.
+  std::vector<double> residuals;
   std::vector<AuditLimit> broken_limits;  // The measured velocity breaks these by more than its errors explain.
   friend bool operator==(const FitRow&, const FitRow&) = default;
 };
@@ -156,7 +175,8 @@ struct FitResponse {
   // The rise of the objective at which the intervals end: kFitRiseOfInterval, times E[psi^2]/E[psi'] for a robust loss
   // with half the derivative psi.
   double interval_rise = kFitRiseOfInterval;
-  double chi2 = 0.0;  // Sum of the squared residuals, whatever the loss.
+  // Sum of the squared residuals, whatever the loss. Those of a row whose inputs have errors count by their covariance.
+  double chi2 = 0.0;
   // Measured numbers less combinations of unknowns that are seen; one that would fit better beyond its bound counts as
   // given.
   int64_t degrees_of_freedom = 0;

@@ -72,6 +72,7 @@ std::vector<BadInput> Flags() {
       {Plus(kSolve, {"--history", "65536"}), "--history = 65536: must be in [1, 65535]", ""},
       {Plus(kSolve, {"--history", "2.5"}), "--history = 2.5: must be a whole number", ""},
       {Plus(kSolve, {"--deadline", "1s"}), "--deadline needs --server", ""},
+      {{"multicontact", "--scene", "x", "--keep", "1"}, "--keep and --composite need --mechanism FILE.npz", ""},
       {Plus(kSolve, {"--server", "localhost:1", "--deadline", "soon"}), "--deadline = soon: must be a time", ""},
       {Plus(kSolve, {"--server", "localhost:1", "--max-receive", "0"}), "--max-receive = 0: must be in [1, 2147483647]",
        ""},

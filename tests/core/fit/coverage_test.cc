@@ -17,7 +17,8 @@ struct Data {
   const char* name;
   FitLoss loss;
   std::optional<double> loss_scale;
-  double outliers = 0.0;  // The probability of an error that is ten times as large.
+  double outliers = 0.0;     // The probability of an error that is ten times as large.
+  double input_sigma = 0.0;  // That of the velocities before.
 };
 
 class Coverage : public testing::TestWithParam<Data> {};
@@ -26,8 +27,10 @@ TEST_P(Coverage, OfTheTruthIsNinetyFivePercent) {
   constexpr int kSets = 1000;
   Case given = ContactCase();
   // What is known of robust losses holds for many numbers.
-  for (InputColumn& input : given.inputs)
+  for (FitInput& input : given.inputs) {
     input.values.insert(input.values.end(), input.values.begin(), input.values.end());
+    if (GetParam().input_sigma > 0.0) input.sigma = {GetParam().input_sigma};
+  }
   FitRequest exact = Noiseless(given);
   exact.loss = GetParam().loss;
   exact.loss_scale = GetParam().loss_scale;
@@ -65,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(Losses, Coverage,
                                          Data{"NarrowHuber", FitLoss::kHuber, 0.5},
                                          Data{"NarrowCauchy", FitLoss::kCauchy, 1.0},
                                          Data{"HuberWithOutliers", FitLoss::kHuber, {}, 0.1},
-                                         Data{"CauchyWithOutliers", FitLoss::kCauchy, {}, 0.1}),
+                                         Data{"CauchyWithOutliers", FitLoss::kCauchy, {}, 0.1},
+                                         Data{"UncertainInputs", FitLoss::kSquares, {}, 0.0, 0.02}),
                          [](const auto& of) { return std::string(of.param.name); });
 
 // Rows that slide lie on the friction cone, which errors make them leave as often as not.

@@ -66,6 +66,13 @@ INSTANTIATE_TEST_SUITE_P(
               "unknowns[0].low", "= 0.1: must be below the upper bound 0.1"},
         Wrong{"SigmaOfZero", [](FitRequest& r) { r.measured[0].sigma = {0.0}; }, "measured[0].sigma[0]",
               "= 0: must be > 0"},
+        Wrong{"NegativeSigmaOfAnInput", [](FitRequest& r) { r.inputs[1].sigma = {-0.1}; }, "inputs[1].sigma[0]",
+              "= -0.1: must be 0, or in [1e-150, 1e+150]"},
+        Wrong{"TooFewSigmasOfAnInput",
+              [](FitRequest& r) {
+                r.inputs[1].sigma = {0.1, 0.1};
+              },
+              "inputs[1].sigma", "has 2 numbers: must have 6, one for each row, or one for all"},
         Wrong{"SigmaWithoutASquare", [](FitRequest& r) { r.measured[0].sigma = {1e-200}; }, "measured[0].sigma[0]",
               "= 1e-200: must be in [1e-150, 1e+150]"},
         Wrong{"LossWithoutAName", [](FitRequest& r) { r.loss = static_cast<FitLoss>(99); }, "loss",
@@ -84,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"InputNotFinite", [](FitRequest& r) { r.inputs[1].values[2] = std::nan(""); }, "inputs[1].values[2]",
               "= nan: must be finite"},
         Wrong{"MeasuredInfinite", [](FitRequest& r) { r.measured[0].values[1] = kInfinity; }, "measured[0].values[1]",
-              "= inf: must be finite, or NaN where nothing was measured"},
+              "= inf: must be finite where something was measured"},
         Wrong{"TooFewRows",
               [](FitRequest& r) {
                 for (FitMeasured& m : r.measured) m.values.assign(6, std::nan(""));

@@ -24,7 +24,7 @@ struct Case {
   Scene truth;
   std::vector<FitUnknown> unknowns;
   std::vector<double> true_values;
-  std::vector<InputColumn> inputs;
+  std::vector<FitInput> inputs;
   std::vector<std::pair<std::string, double>> measured;
 };
 
@@ -33,22 +33,27 @@ inline absl::StatusOr<FitResponse> Fit(const FitRequest& request, absl::Function
   return RunFit(request, nullptr, stopped);
 }
 
-// Errors of measured numbers: normal ones with their sigma, of which some are ten times as large.
+// Errors of measured numbers and of inputs: normal ones with their sigma, of which some are ten times as large.
 class Noise {
  public:
   explicit Noise(uint64_t seed, double outliers = 0.0) : random_(seed), is_outlier_(outliers) {}
 
   FitRequest AddedTo(FitRequest request) {
-    for (FitMeasured& measured : request.measured) {
-      for (double& value : measured.values) {
-        const double error = measured.sigma[0] * normal_(random_);
-        value += is_outlier_.p() > 0.0 && is_outlier_(random_) ? 10.0 * error : error;
-      }
+    for (FitMeasured& measured : request.measured) Add(measured.sigma[0], measured.values);
+    for (FitInput& input : request.inputs) {
+      if (!input.sigma.empty()) Add(input.sigma[0], input.values);
     }
     return request;
   }
 
  private:
+  void Add(double sigma, std::vector<double>& values) {
+    for (double& value : values) {
+      const double error = sigma * normal_(random_);
+      value += is_outlier_.p() > 0.0 && is_outlier_(random_) ? 10.0 * error : error;
+    }
+  }
+
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
   std::bernoulli_distribution is_outlier_;
@@ -59,7 +64,7 @@ inline FitRequest Noiseless(const Case& given) {
   FitRequest request = {.scene = given.truth, .unknowns = given.unknowns, .inputs = given.inputs};
   BatchSetup setup = {.scene = given.truth};
   BatchRows rows;
-  for (const InputColumn& input : given.inputs) {
+  for (const FitInput& input : given.inputs) {
     setup.fields.push_back(input.path);
     rows.inputs.emplace_back(input.values);
   }

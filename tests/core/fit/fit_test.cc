@@ -304,7 +304,7 @@ double ChiSquaredAt(const FitRequest& request, const std::vector<double>& at) {
     setup.fields.push_back(request.unknowns[k].path);
     in.emplace_back(rows, at[k]);
   }
-  for (const InputColumn& input : request.inputs) {
+  for (const FitInput& input : request.inputs) {
     setup.fields.push_back(input.path);
     in.push_back(input.values);
   }
@@ -444,15 +444,15 @@ TEST(FitTest, ManyRowsOfInformationAskForAStopAndTellTheSame) {
   constexpr size_t kCount = 20000;
   problem.rows = kCount;
   problem.numbers.clear();
-  std::vector<double> derivatives;
+  std::vector<double> slopes;
   for (size_t i = 0; i < kCount; ++i) {
     problem.numbers.push_back({.row = i, .value = 1.0, .sigma = 0.5});
-    derivatives.insert(derivatives.end(), {1.0, static_cast<double>(i + 1) / kCount});
+    slopes.insert(slopes.end(), {-2.0, -2.0 * static_cast<double>(i + 1) / kCount});
   }
-  const std::vector<double> ones(kCount, 1.0);
+  const std::vector<double> residuals(kCount, 0.0);
   int questions = 0;
   const auto count = [&questions] { return ++questions < 0; };
-  const Information information = InformationOf(problem, {0.5, 0.5}, ones, derivatives, count);
+  const Information information = InformationOf(problem, {0.5, 0.5}, residuals, slopes, count);
   EXPECT_GE(questions, 8);
   constexpr double kAll = kCount;
   const double linear = (kAll + 1.0) / 2.0, square = (kAll + 1.0) * (2.0 * kAll + 1.0) / (6.0 * kAll);
@@ -605,7 +605,7 @@ TEST(FitTest, TheProbabilityOfChiSquaredIsThatOfDataWhoseTruthLiesOnBounds) {
   given.truth.restitution = PoissonCoefficient{1.0};
   given.unknowns[0].start = 0.1;
   given.unknowns[1].high = 1.0;
-  for (InputColumn& input : given.inputs) input.values.resize(2);
+  for (FitInput& input : given.inputs) input.values.resize(2);
   const FitRequest exact = Noiseless(given);
   Noise noise(20261129);
   int rare = 0;

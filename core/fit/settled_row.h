@@ -1,0 +1,45 @@
+// SettledRow: a row of measured numbers whose inputs have errors, too ("errors in variables").
+//
+// The row measured the numbers y with the standard deviations s_y, and states the inputs z with s_z. Its part of the
+// objective is the least value over the true inputs x of
+//
+//   |(y - f(x)) / s_y|^2 + |(z - x) / s_z|^2
+//
+// where f is what the scene predicts. With J = df/dx beside that x, it is the square of the independent residuals
+//
+//   e = L^-1 (y - f(x) - J (z - x)),   L L^T = diag(s_y^2) + J diag(s_z^2) J^T
+//
+// whose derivatives by the unknowns are -L^-1 df. Source: P. T. Boggs, R. H. Byrd, R. B. Schnabel, A stable and
+// efficient algorithm for nonlinear orthogonal distance regression, SIAM J. Sci. Stat. Comput. 8 (1987).
+
+#ifndef RICOCHET_CORE_FIT_SETTLED_ROW_H_
+#define RICOCHET_CORE_FIT_SETTLED_ROW_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "absl/functional/function_ref.h"
+#include "core/fit/problem.h"
+
+namespace ricochet::fit {
+
+struct SettledRow {
+  std::vector<double> inputs;  // All inputs of the row; those that have errors are x.
+  // NaN if the row has no prediction.
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd root;  // L
+};
+
+// A column for each field of the problem's batch, or for each of its columns.
+using Table = std::vector<std::vector<double>>;
+// Sets the measured columns of rows that are given by their fields. Returns false once it is stopped.
+using SolveTable = absl::FunctionRef<bool(const Table& fields, Table& columns)>;
+
+// Settles all rows of the problem at each of some values of the unknowns, one after the other. J is that of central
+// differences. Where f has a corner or a jump, the inputs found may not be the best ones; the residuals then have the
+// sum of squares that belongs to them. Returns false once `solve` does.
+bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, std::vector<SettledRow>& rows);
+
+}  // namespace ricochet::fit
+
+#endif  // RICOCHET_CORE_FIT_SETTLED_ROW_H_
