@@ -30,8 +30,9 @@
 namespace ricochet {
 
 // The chunks, joined, and the summary are those of a call that nothing disturbed. It fails like a SweepReader; a server
-// that cannot be reached, or refuses the sweep for a limit or a right of its own, is a failure only once all servers have
-// failed as often as the retry policy allows. Until then it is asked again and again, in case that it comes back.
+// that cannot be reached, or refuses the sweep by a limit or a right of its own, is a failure only once all servers are
+// that and have failed as often as the retry policy allows. Until then it is asked again and again, in case that it
+// comes back.
 //
 // Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
 class SweepFanOut {

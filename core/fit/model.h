@@ -1,4 +1,4 @@
-// Model: the measured numbers as the scene predicts them, their residuals, and the derivatives of these by the unknowns.
+// Model: the measured numbers as the scene predicts them, their residuals, and the derivatives of these by unknowns.
 
 #ifndef RICOCHET_CORE_FIT_MODEL_H_
 #define RICOCHET_CORE_FIT_MODEL_H_

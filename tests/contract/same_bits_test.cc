@@ -246,6 +246,11 @@ TEST(SameBits, OfFitsAndOfTheirErrors) {
     request.region = {request.unknowns[0].path, request.unknowns[1].path};
     ASSERT_TRUE(Local().Fit(request).ok()) << Local().Fit(request).status();
     ExpectSame(Local().Fit(request), Remote().Fit(request));
+    request.inputs[0].sigma = {0.01};
+    request.starts.reset();
+    request.region.clear();
+    ASSERT_TRUE(Local().Fit(request).ok()) << Local().Fit(request).status();
+    ExpectSame(Local().Fit(request), Remote().Fit(request));
     request.measured[0].sigma = {-1.0};
     ExpectSame(Local().Fit(request), Remote().Fit(request));
   }

@@ -49,8 +49,8 @@ class SweepOutput {
   // Makes a file appear under its name, after the manifest if it is a shard. Errors: those of the system.
   absl::Status Commit();
 
-  // Ends a run that failed with `status`. A partial file is left if there are points in it, and `command` is shown if it
-  // may go on.
+  // Ends a run that failed with `status`. A partial file is left if there are points in it, and `command` is shown if
+  // that may go on.
   void LeaveForResume(const absl::Status& status, const std::string& command);
 
  private:
