@@ -368,7 +368,10 @@ bool SolvePlainFirst(const Block& block, double tolerance) {
 }  // namespace
 
 ProblemColumns::ProblemColumns(RestitutionLaw law, size_t size) : law_(law), size_(size) {
-  for (AlignedVector<double>& column : numbers_) column.resize(size + kMostLanes);
+  for (auto& column : numbers_) {
+    column = hwy::AllocateAligned<double>(size + kMostLanes);
+    std::fill_n(column.get(), size + kMostLanes, 0.0);
+  }
 }
 
 void ProblemColumns::Set(size_t i, const Problem& problem) {

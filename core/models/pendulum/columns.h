@@ -14,7 +14,7 @@
 #include "absl/types/span.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
-#include "core/numerics/aligned_vector.h"
+#include "hwy/aligned_allocator.h"
 
 namespace ricochet::pendulum {
 
@@ -34,23 +34,24 @@ class ProblemColumns {
 
   // The columns may be read for kMostLanes entries beyond the last problem, because vectors are loaded whole.
   static constexpr size_t kMostLanes = 64;
-  const double* inertia() const { return numbers_[0].data(); }
-  const double* a() const { return numbers_[1].data(); }
-  const double* b() const { return numbers_[2].data(); }
-  const double* omega_minus() const { return numbers_[3].data(); }
-  const double* mu() const { return numbers_[4].data(); }
-  const double* mu_static() const { return numbers_[5].data(); }
-  const double* coefficient() const { return numbers_[6].data(); }
+  const double* inertia() const { return numbers_[0].get(); }
+  const double* a() const { return numbers_[1].get(); }
+  const double* b() const { return numbers_[2].get(); }
+  const double* omega_minus() const { return numbers_[3].get(); }
+  const double* mu() const { return numbers_[4].get(); }
+  const double* mu_static() const { return numbers_[5].get(); }
+  const double* coefficient() const { return numbers_[6].get(); }
 
   // The n-th of the columns above.
   static constexpr size_t kNumbers = 7;
-  double* numbers(size_t n) { return numbers_[n].data(); }
-  const double* numbers(size_t n) const { return numbers_[n].data(); }
+  double* numbers(size_t n) { return numbers_[n].get(); }
+  const double* numbers(size_t n) const { return numbers_[n].get(); }
 
  private:
   RestitutionLaw law_ = RestitutionLaw::kEnergetic;
   size_t size_ = 0;
-  std::array<AlignedVector<double>, kNumbers> numbers_;
+  // Each begins a cache line, because a load that crosses two lines takes twice as long.
+  std::array<hwy::AlignedFreeUniquePtr<double[]>, kNumbers> numbers_;
 };
 
 // The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]`
