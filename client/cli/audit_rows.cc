@@ -119,9 +119,9 @@ std::string WhyInvalidIn(audit::InputScene& scene, const AuditRows& rows, size_t
          "takes too many steps";
 }
 
-// Names the column of the table where an error has the place of an input.
+// Names the column of the table where an error has the place of a column or an input.
 absl::Status ByColumns(const AuditRows& rows, const absl::Status& status) {
-  std::string message(status.message());
+  std::string message = absl::StrReplaceAll(status.message(), {{"columns.", "column "}});
   for (size_t i = rows.inputs.size(); i > 0; --i) {
     const std::string place = absl::StrCat("inputs[", i - 1, "]"),
                       column = absl::StrCat("column ", rows.inputs[i - 1].path);

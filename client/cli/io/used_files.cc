@@ -27,7 +27,7 @@ std::map<std::string, Used>& AllUsed() {
 
 std::string InodeText(const struct stat& info) { return absl::StrCat("inode ", info.st_dev, " ", info.st_ino); }
 
-// Returns an empty text for standard input that is not a file, because it may be used more than once.
+// Returns an empty text for standard input that is not a file.
 std::string IdentityOfStream(FileUse use) {
   struct stat info;
   const int descriptor = use == FileUse::kRead ? STDIN_FILENO : STDOUT_FILENO;
@@ -53,6 +53,13 @@ absl::StatusOr<std::string> IdentityOf(FileUse use, const std::string& path) {
 absl::Status UseFile(FileUse use, const std::string& flag, const std::string& path) {
   const std::string name =
       flag.empty() && path == "-" ? "standard output" : absl::StrCat(flag, flag.empty() ? "" : " ", path);
+  if (use == FileUse::kRead && path == "-") {
+    const auto [first, is_new] = AllUsed().insert({"standard input", {.use = use, .name = name}});
+    if (!is_new) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(first->second.name, " and ", name, " both read standard input: one must name a file"));
+    }
+  }
   const absl::StatusOr<std::string> identity = IdentityOf(use, path);
   if (!identity.ok()) return identity.status();
   if (identity->empty()) return absl::OkStatus();
