@@ -71,15 +71,15 @@ inline constexpr int kAuditLimitCount = 6;
 enum class Verdict {
   kUnspecified = 0,
   kKept = 1,
-  kWithinUncertainty = 2,  // The limit is exceeded, but some velocity within the uncertainty keeps it.
+  kWithinUncertainty = 2,  // The limit is exceeded by no more than its allowance.
   kBroken = 3,
 };
 
 struct LimitCheck {
   double value = 0.0;      // kSharp: energetic coefficient; kEnergy: E+ - E-; then p_n, v+_n and |p_t|.
-  double limit = 0.0;      // kSharp: 1; kCone: mu p_n; all others: 0.
+  double limit = 0.0;      // kSharp: 1; kCone: mu_s p_n; all others: 0.
   double excess = 0.0;     // How far the value lies beyond the limit, without cancellation; negative if it keeps it.
-  double allowance = 0.0;  // The largest excess that the uncertainty of the velocity can cause.
+  double allowance = 0.0;  // To first order the largest excess that the uncertainty can cause.
   Verdict verdict = Verdict::kUnspecified;
   friend bool operator==(const LimitCheck&, const LimitCheck&) = default;
 };

@@ -15,7 +15,7 @@ enum class Regime {
   kStickInRestitution = 5,     // Slip stops in restitution and the contact sticks.
   kReversalInCompression = 6,  // Slip reverses in compression.
   kReversalInRestitution = 7,  // Slip reverses in restitution.
-  kLocked = 8,       // The constraints and friction hold the body: no restitution, velocities 0, coefficients 0.
+  kLocked = 8,       // The constraints and friction hold the body: velocities and coefficients of restitution are 0.
   kWedged = 9,       // The contact had not separated when the computation ended; Outcome::termination says why.
   kSeparating = 10,  // The contact does not approach: nothing changes.
   kInvalid = 11,     // Sweeps and batches only: the point breaks a rule or overflows; its columns are quiet NaN.

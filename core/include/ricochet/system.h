@@ -109,7 +109,7 @@ struct Mechanism {
 };
 
 // A contact in the plane: W = J M^-1 J^T, the contact-space inverse inertia (Delassus matrix), symmetric positive
-// semidefinite, and the contact velocity, which lies in the range of W.
+// semidefinite, and the contact velocity.
 struct PlanarContact {
   double w_tt_per_kg = 0.0;     // >= 0
   double w_tn_per_kg = 0.0;     // tt nn - tn^2 >= -4 eps tt nn

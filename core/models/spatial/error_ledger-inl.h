@@ -103,12 +103,15 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   T VelocityError() const { return sum_.VelocityError(problem_); }
   // A contact that sticks does not depend on the path of u.
   void ForgetSlip() { sum_.friction = sum_.slip_rounding = sum_.strayed = T{0}; }
-  // A bound on the error, in normal impulse, of the event at which v reaches its target. Where the path bends more than
-  // it rises, it is the bound of a double root.
+  // A bound on the error, in normal impulse, of the event at which v reaches its target: the root of a parabola, or the
+  // bound of a double root where that is not real.
   T ImpulseErrorOfVelocityEvent(T error, const Slopes<T>& slopes) const {
     if (error == T{0}) return T{0};
     const T bend = slopes.v > T{0} ? slopes.bend : T{1};
-    return error / std::max(slopes.v, std::sqrt(bend * std::fabs(error)));
+    const T change = T{2} * bend * std::fabs(error);
+    const T square = slopes.v * slopes.v - change;
+    if (slopes.v > T{0} && square >= T{0}) return T{2} * error / (slopes.v + std::sqrt(square));
+    return T{2} * error / std::sqrt(change);
   }
   // The error of the impulse at the end, from that of the state there and that of compression.
   T ImpulseErrorOfEnd(const Path<T>& path, const Slopes<T>& slopes, T velocity_error, T work_error,
