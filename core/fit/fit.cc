@@ -40,8 +40,12 @@ constexpr double kLeastGain = 1e-6;
 // Refuses a start at which a measured number has no prediction.
 absl::Status CheckStart(const FitRequest& request, Model& model) {
   std::vector<double> predicted;
-  if (model.Predict(model.problem().start, predicted) || model.is_stopped()) return absl::OkStatus();
-  const BadRow bad = *model.Bad(predicted);
+  if (model.Residuals(model.problem().start, predicted) || model.is_stopped()) return absl::OkStatus();
+  model.Predict(model.problem().start, predicted);
+  if (model.is_stopped()) return absl::OkStatus();
+  const std::optional<BadRow> found = model.Bad(predicted);
+  if (!found.has_value()) return OutputOverflow("a residual at the start");
+  const BadRow& bad = *found;
   const auto row = static_cast<size_t>(bad.row);
   for (size_t i = 0; i < request.inputs.size(); ++i) {
     if (request.inputs[i].path != bad.field) continue;
@@ -135,12 +139,12 @@ class Fitter {
 
   // Sees what the data tell at the best fit.
   void Look() {
-    std::vector<double> residuals, slopes;
-    if (!model_.Residuals(best_.at, residuals) || !model_.Slopes(best_.at, all_free_, slopes)) {
-      slopes.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
+    LinearResiduals residuals = {.values = {}, .slopes = {}, .sigmas = model_.Sigmas(best_.at)};
+    if (!model_.Residuals(best_.at, residuals.values) || !model_.Slopes(best_.at, all_free_, residuals.slopes)) {
+      residuals.slopes.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
     }
-    residuals.resize(problem_.numbers.size(), 0.0);
-    information_ = InformationOf(problem_, best_.at, residuals, slopes, [this] { return model_.Stops(); });
+    residuals.values.resize(problem_.numbers.size(), 0.0);
+    information_ = InformationOf(problem_, best_.at, residuals, [this] { return model_.Stops(); });
   }
 
   // The distance at which an interval or a region should end.
@@ -198,7 +202,11 @@ class Fitter {
 
   void SetEnd(const RayEnd& ray, double step, FitEnd& end, FitEstimate& estimate) const {
     const size_t k = response_.unknowns.size() - 1;
-    const double value = PlaceOf(k, ray.distance * step);
+    double value = PlaceOf(k, ray.distance * step);
+    // The sum may round beside the bound that it has reached.
+    for (const double bound : {problem_.low[k], problem_.high[k]}) {
+      if (std::isfinite(bound) && std::fabs(value - bound) <= 0x1p-40 * std::fabs(best_.at[k] - bound)) value = bound;
+    }
     end.kind = ray.kind;
     if (ray.kind == FitEndKind::kFound || ray.kind == FitEndKind::kCutByBound) end.value = value;
     // The data do not determine this number, so a bound that it reaches is not an end that the data gave.

@@ -49,8 +49,8 @@ Eigen::MatrixXd FewRowsOf(const Eigen::MatrixXd& slopes, absl::FunctionRef<bool(
 
 }  // namespace
 
-Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& residuals,
-                          const std::vector<double>& of_residuals, absl::FunctionRef<bool()> stopped) {
+Information InformationOf(const Problem& problem, const std::vector<double>& at, const LinearResiduals& residuals,
+                          absl::FunctionRef<bool()> stopped) {
   const auto count = static_cast<Eigen::Index>(problem.numbers.size());
   const auto size = static_cast<Eigen::Index>(problem.unknowns());
   Eigen::MatrixXd slopes(count, size);
@@ -60,14 +60,14 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   for (Eigen::Index i = 0; i < count; ++i) {
     if (i % kBlock == kBlock - 1 && stopped()) return {};
     const auto number = static_cast<size_t>(i);
-    const double residual = residuals[number];
-    const double measured = problem.numbers[number].value / problem.numbers[number].sigma;
+    const double residual = residuals.values[number];
+    const double measured = problem.numbers[number].value / residuals.sigmas[number];
     numbers = Hypot(numbers, std::max(std::fabs(measured - residual), std::fabs(measured)));
     const double weight = LossOf(problem, residual * residual).weight;
     chi2 += residual * residual;
     weights += weight;
     for (Eigen::Index k = 0; k < size; ++k) {
-      const double slope = of_residuals[number * problem.unknowns() + static_cast<size_t>(k)];
+      const double slope = residuals.slopes[number * problem.unknowns() + static_cast<size_t>(k)];
       slopes(i, k) = slope * std::sqrt(weight);
       fall[k] -= weight * residual * slope;
     }
@@ -106,7 +106,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   // An unknown at a bound is no more free than one that is given.
   information.degrees_of_freedom = count - static_cast<int64_t>(information.rank) +
                                    std::count(information.is_at_bound.begin(), information.is_at_bound.end(), true);
-  const Spread spread = SpreadOf(problem, residuals, information.degrees_of_freedom);
+  const Spread spread = SpreadOf(problem, residuals.values, information.degrees_of_freedom);
   information.rise = spread.rise;
   // J^T J of the weighted residuals is that of all residuals times the mean weight.
   const double variance = spread.variance * (weights / static_cast<double>(count));

@@ -29,10 +29,14 @@ struct Information {
   std::vector<std::vector<double>> row_shares;  // FitEstimate explains them; one list for each unknown.
 };
 
-// `residuals` and `slopes` are those at the unknowns `at` (core/fit/model.h). Once `stopped` returns true, what is
-// returned means nothing.
-Information InformationOf(const Problem& problem, const std::vector<double>& at, const std::vector<double>& residuals,
-                          const std::vector<double>& slopes, absl::FunctionRef<bool()> stopped);
+// The residuals at some values of the unknowns, their slopes, and the sigmas of the numbers (core/fit/model.h).
+struct LinearResiduals {
+  std::vector<double> values, slopes, sigmas;
+};
+
+// `residuals` are those at the unknowns `at`. Once `stopped` returns true, what is returned means nothing.
+Information InformationOf(const Problem& problem, const std::vector<double>& at, const LinearResiduals& residuals,
+                          absl::FunctionRef<bool()> stopped);
 
 // The probability that chi-squared with so many degrees of freedom, > 0, exceeds a value, exact to some 1e-12 of 1.
 double ChiSquaredBeyond(double value, double degrees_of_freedom);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -31,14 +32,13 @@ constexpr double kSamePart = 1e-3;
 
 void SetRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
   std::vector<double> predicted, residuals;
-  model.Predict(best, predicted);
+  std::vector<Regime> regimes(problem.rows);
+  if (!model.PredictRows(best, regimes, predicted)) predicted.clear();
   const std::vector<double> sigmas = model.Sigmas(best);
   FitRow empty = {.predicted = std::vector<double>(problem.columns(), kNone),
                   .residuals = std::vector<double>(problem.columns(), kNone)};
   response.rows.assign(problem.rows, empty);
-  for (size_t row = 0; row < problem.rows && row < model.regimes().size(); ++row) {
-    response.rows[row].regime = model.regimes()[row];
-  }
+  for (size_t row = 0; row < problem.rows; ++row) response.rows[row].regime = regimes[row];
   for (size_t i = 0; i < predicted.size(); ++i) {
     const Number& number = problem.numbers[i];
     const double residual = (number.value - predicted[i]) / sigmas[i];
@@ -165,9 +165,21 @@ void NoteSeparating(const std::vector<FitRow>& rows, std::vector<std::string>& n
                                ": the normal velocity before is not negative there."));
 }
 
-void SetNotes(const Information& information, FitResponse& response) {
+// An error that all rows share, as that of a mass that was weighed once, is no error of each row.
+void NoteSharedInputs(const Problem& problem, std::vector<std::string>& notes) {
+  for (size_t i = 0; i < problem.inputs.size(); ++i) {
+    const std::vector<double>& values = problem.inputs[i];
+    const bool is_one = std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+    if (problem.input_sigmas[i].empty() || problem.rows < 2 || !is_one) continue;
+    notes.push_back(absl::StrCat("The errors of ", problem.batch.fields[problem.unknowns() + i],
+                                 " count as independent from row to row, although its value is the same in all."));
+  }
+}
+
+void SetNotes(const Problem& problem, const Information& information, FitResponse& response) {
   std::vector<std::string>& notes = response.notes;
   NoteSeparating(response.rows, notes);
+  NoteSharedInputs(problem, notes);
   if (!response.starts.front().converged) {
     notes.emplace_back("The search from the first start did not converge; more iterations or another start may help.");
   }
@@ -246,7 +258,7 @@ void Judge(const Problem& problem, const std::vector<double>& best, const Inform
                                               [](const FitRow& row) { return !row.broken_limits.empty(); });
   SetThresholds(problem, best, model, response);
   response.starts_differ = StartsDiffer(problem, response);
-  SetNotes(information, response);
+  SetNotes(problem, information, response);
   NoteInadmissible(model.Inadmissible(best), response);
 }
 

@@ -136,13 +136,21 @@ std::vector<double> Model::Sigmas(const std::vector<double>& unknowns) {
   std::vector<double> sigmas;
   for (const Number& number : problem_.numbers) sigmas.push_back(number.sigma);
   if (!problem_.has_uncertain_inputs() || !SettleHere(unknowns)) return sigmas;
-  for (size_t row = 0; row < settled_.size(); ++row) {
-    const Eigen::MatrixXd& root = settled_[row].root;
-    for (Eigen::Index i = 0; i < root.rows(); ++i) {
-      sigmas[problem_.first_number[row] + static_cast<size_t>(i)] = root.row(i).norm();
-    }
-  }
+  sigmas.clear();
+  for (const SettledRow& row : settled_) sigmas.insert(sigmas.end(), row.sigmas.begin(), row.sigmas.end());
   return sigmas;
+}
+
+bool Model::PredictRows(const std::vector<double>& unknowns, std::vector<Regime>& regimes,
+                        std::vector<double>& predicted) {
+  Solved solved;
+  if (!SolveAt({unknowns}, InputsAt(unknowns), solved)) return false;
+  regimes = std::move(solved.regimes);
+  predicted = NumbersOf(solved, 0);
+  if (!problem_.has_uncertain_inputs()) return true;
+  predicted.clear();
+  for (const SettledRow& row : settled_) predicted.insert(predicted.end(), row.predicted.begin(), row.predicted.end());
+  return true;
 }
 
 std::vector<size_t> Model::Inadmissible(const std::vector<double>& unknowns) {
@@ -183,10 +191,10 @@ bool Model::Slopes(const std::vector<double>& unknowns, const std::vector<bool>&
     return true;
   }
   for (size_t row = 0; row < settled_.size(); ++row) {
-    const Eigen::MatrixXd& root = settled_[row].root;
+    const Eigen::MatrixXd& whitening = settled_[row].whitening;
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> of_row(
-        slopes.data() + problem_.first_number[row] * size, root.rows(), static_cast<Eigen::Index>(size));
-    of_row = -root.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd(of_row));
+        slopes.data() + problem_.first_number[row] * size, whitening.rows(), static_cast<Eigen::Index>(size));
+    of_row = -whitening * Eigen::MatrixXd(of_row);
   }
   return true;
 }

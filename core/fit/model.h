@@ -33,16 +33,17 @@ class Model {
   // Asks `stopped`, for work between the functions below that takes long.
   bool Stops() { return is_stopped_ = is_stopped_ || stopped_(); }
 
-  // Sets the numbers predicted for the stated inputs and returns true if all exist. The rows of Bad and regimes() are
-  // those of the last call.
+  // Sets the numbers predicted for the stated inputs and returns true if all exist. The rows of Bad are those of the
+  // last call.
   bool Predict(const std::vector<double>& unknowns, std::vector<double>& predicted);
   // Sets the residuals and returns true if all numbers have a prediction.
   bool Residuals(const std::vector<double>& unknowns, std::vector<double>& residuals);
   // Sets the residuals at each of some points, NaN for a number without prediction. Returns false once it is stopped.
   bool ResidualsAll(const Table& points, Table& residuals);
-  // The standard deviation of each measured number less the one predicted for the stated inputs.
+  // Sets the regimes of the rows, and the numbers predicted for the stated inputs by the courses that the rows take.
+  bool PredictRows(const std::vector<double>& unknowns, std::vector<Regime>& regimes, std::vector<double>& predicted);
+  // The standard deviation of each measured number less that predicted one.
   std::vector<double> Sigmas(const std::vector<double>& unknowns);
-  const std::vector<Regime>& regimes() const { return here_.regimes; }
   // The rows whose outcome breaks a limit: energy appears, or friction works along the slip.
   std::vector<size_t> Inadmissible(const std::vector<double>& unknowns);
   // Returns the first measured number that has no prediction, and why.

@@ -1,9 +1,12 @@
 #include "core/fit/settled_row.h"
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <limits>
 #include <utility>
 
@@ -21,35 +24,101 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSettled = 1e-7;
 // A row on a corner of the prediction ends after this many steps, each of which may be half the one before.
 constexpr int kMostSteps = 40;
+// Further searches look at these distances on both sides of each stated input, in sigmas.
+constexpr std::array<double, 3> kProbes = {0.75, 1.5, 3.0};
+// They start from the nearest one where a number differs from the straight lines of the first search by more than this
+// part of its sigma.
+constexpr double kSurprise = 0.1;
 
-// The search of one row for the inputs that fit best, at one value of the unknowns.
-class Settling {
+// What a row states and measured.
+class Row {
  public:
-  Settling(const Problem& problem, size_t row, const std::vector<double>& unknowns)
-      : problem_(problem), unknowns_(unknowns), first_(problem.first_number[row]) {
-    const size_t count = problem.first_number[row + 1] - first_;
+  struct Uncertain {
+    size_t input;
+    double sigma;
+    double size;  // That of the input in any row.
+  };
+
+  // `sizes` are those of the problem's inputs.
+  Row(const Problem& problem, size_t row, const std::vector<double>& sizes)
+      : problem_(problem), first_(problem.first_number[row]), count_(problem.first_number[row + 1] - first_) {
     for (size_t i = 0; i < problem.inputs.size(); ++i) {
       stated_.push_back(problem.inputs[i][row]);
       const double sigma = problem.input_sigmas[i].empty() ? 0.0 : problem.input_sigmas[i][row];
-      if (sigma > 0.0) uncertain_.push_back({i, sigma});
+      if (sigma > 0.0) uncertain_.push_back({i, sigma, sizes[i] > 0.0 ? sizes[i] : sigma});
     }
-    inputs_ = stated_;
-    best_ = {.inputs = stated_, .residuals = VectorXd::Constant(static_cast<Index>(count), kNone), .root = {}};
-    is_done_ = count == 0;
   }
 
+  const std::vector<double>& stated() const { return stated_; }
+  const std::vector<Uncertain>& uncertain() const { return uncertain_; }
+  Index count() const { return static_cast<Index>(count_); }
+  bool has_robust_loss() const { return problem_.loss != FitLoss::kSquares; }
+  const Number& NumberAt(Index i) const { return problem_.numbers[first_ + static_cast<size_t>(i)]; }
+
+  VectorXd PredictedIn(const Table& columns, size_t at) const {
+    VectorXd predicted(count());
+    for (Index i = 0; i < count(); ++i) predicted[i] = columns[NumberAt(i).column][at];
+    return predicted;
+  }
+
+  // What the stated inputs with errors exceed others by.
+  VectorXd ShiftFrom(const std::vector<double>& inputs) const {
+    VectorXd shift(static_cast<Index>(uncertain_.size()));
+    for (Index j = 0; j < shift.size(); ++j) {
+      const size_t input = uncertain_[static_cast<size_t>(j)].input;
+      shift[j] = stated_[input] - inputs[input];
+    }
+    return shift;
+  }
+
+  // NaN without a prediction.
+  double Objective(const VectorXd& predicted, const std::vector<double>& inputs) const {
+    if (!predicted.allFinite()) return kNone;
+    double sum = 0.0;
+    const auto add = [&sum](double residual) { sum += residual * residual; };
+    for (Index i = 0; i < count(); ++i) add(NumberAt(i).Residual(predicted[i]));
+    const VectorXd shift = ShiftFrom(inputs);
+    for (Index j = 0; j < shift.size(); ++j) add(shift[j] / uncertain_[static_cast<size_t>(j)].sigma);
+    return sum;
+  }
+
+ private:
+  const Problem& problem_;
+  size_t first_, count_;
+  std::vector<double> stated_;
+  std::vector<Uncertain> uncertain_;
+};
+
+void AppendPlace(const std::vector<double>& unknowns, const std::vector<double>& inputs, Table& fields) {
+  for (size_t k = 0; k < unknowns.size(); ++k) fields[k].push_back(unknowns[k]);
+  for (size_t i = 0; i < inputs.size(); ++i) fields[unknowns.size() + i].push_back(inputs[i]);
+}
+
+// A search of a row for the inputs that fit best, at one value of the unknowns.
+class Search {
+ public:
+  Search(const Row& row, const std::vector<double>& unknowns, std::vector<double> start)
+      : row_(row), unknowns_(unknowns), inputs_(std::move(start)), is_done_(row.count() == 0) {
+    const VectorXd none = VectorXd::Constant(row.count(), kNone);
+    best_ = {.inputs = inputs_, .predicted = none, .sigmas = none, .residuals = none, .whitening = {}};
+  }
+
+  const Row& row() const { return row_; }
+  const std::vector<double>& unknowns() const { return unknowns_; }
+  const SettledRow& best() const { return best_; }
+  double attained() const { return attained_; }  // Infinite if nothing was found.
+
   bool is_done() const { return is_done_; }
-  size_t places() const { return 1 + 2 * uncertain_.size(); }
-  SettledRow settled() && { return std::move(best_); }
+  size_t places() const { return 1 + 2 * row_.uncertain().size(); }
 
   // Adds the fields of the places where the next step needs a prediction.
   void AppendPlaces(Table& fields) const {
-    AppendPlace(inputs_, fields);
-    for (size_t j = 0; j < uncertain_.size(); ++j) {
+    AppendPlace(unknowns_, inputs_, fields);
+    for (const Row::Uncertain& uncertain : row_.uncertain()) {
       for (const double side : {-1.0, 1.0}) {
         std::vector<double> beside = inputs_;
-        beside[uncertain_[j].input] += side * StepOf(j);
-        AppendPlace(beside, fields);
+        beside[uncertain.input] += side * StepOf(uncertain);
+        AppendPlace(unknowns_, beside, fields);
       }
     }
   }
@@ -57,59 +126,48 @@ class Settling {
   // Takes the predictions, which stand from row `at` on.
   void Take(const Table& columns, size_t at) {
     ++steps_;
-    const VectorXd predicted = PredictedAt(columns, at);
-    const double attained = predicted.allFinite() ? AttainedWith(predicted) : kNone;
-    if (!(attained < attained_)) {
-      // Without any prediction, or beyond a corner: half of the way.
-      is_done_ = !std::isfinite(attained_) || !Step(0.5);
-      return;
+    const VectorXd predicted = row_.PredictedIn(columns, at);
+    const double attained = row_.Objective(predicted, inputs_);
+    if (attained < attained_) {
+      attained_ = attained;
+      predicted_ = predicted;
+      slopes_ = SlopesIn(columns, at, predicted);
+      SetBest();
+      part_ = std::min(1.0, 2.0 * part_);
+    } else {
+      part_ *= 0.5;  // The way leads beyond a corner.
     }
-    attained_ = attained;
-    const MatrixXd slopes = SlopesAt(columns, at, predicted);
-    SetBest(predicted, slopes);
-    is_done_ = !Step(1.0);
+    is_done_ = !std::isfinite(attained_) || steps_ == kMostSteps || !Moves(part_);
+    if (!is_done_) return Step();
+    // On a corner straight lines promise less than the inputs attain.
+    const double promised = best_.residuals.squaredNorm();
+    const bool is_on_corner = std::isfinite(attained_) && Moves(1.0);
+    if (is_on_corner && promised > 0.0) best_.residuals *= std::sqrt(attained_ / promised);
+  }
+
+  // True if other inputs have a prediction that is not on the straight lines at the best ones.
+  bool IsSurprising(const VectorXd& predicted, const std::vector<double>& inputs) const {
+    if (!predicted.allFinite() || !std::isfinite(attained_)) return predicted.allFinite();
+    const VectorXd on_lines = predicted_ + slopes_ * (row_.ShiftFrom(best_.inputs) - row_.ShiftFrom(inputs));
+    for (Index i = 0; i < predicted.size(); ++i) {
+      if (!(std::fabs(predicted[i] - on_lines[i]) <= kSurprise * row_.NumberAt(i).sigma)) return true;
+    }
+    return false;
   }
 
  private:
-  struct Uncertain {
-    size_t input;
-    double sigma;
-  };
-
-  void AppendPlace(const std::vector<double>& inputs, Table& fields) const {
-    for (size_t k = 0; k < unknowns_.size(); ++k) fields[k].push_back(unknowns_[k]);
-    for (size_t i = 0; i < inputs.size(); ++i) fields[unknowns_.size() + i].push_back(inputs[i]);
-  }
-
-  double StepOf(size_t j) const {
-    return kDifferenceStep * std::max(std::fabs(inputs_[uncertain_[j].input]), uncertain_[j].sigma);
-  }
-
-  VectorXd PredictedAt(const Table& columns, size_t at) const {
-    VectorXd predicted(best_.residuals.size());
-    for (Index i = 0; i < predicted.size(); ++i) predicted[i] = columns[NumberAt(i).column][at];
-    return predicted;
-  }
-
-  const Number& NumberAt(Index i) const { return problem_.numbers[first_ + static_cast<size_t>(i)]; }
-
-  // What the stated input exceeds the present one by.
-  double Shift(size_t j) const { return stated_[uncertain_[j].input] - inputs_[uncertain_[j].input]; }
-
-  double AttainedWith(const VectorXd& predicted) const {
-    double sum = 0.0;
-    const auto add = [&sum](double residual) { sum += residual * residual; };
-    for (Index i = 0; i < predicted.size(); ++i) add(NumberAt(i).Residual(predicted[i]));
-    for (size_t j = 0; j < uncertain_.size(); ++j) add(Shift(j) / uncertain_[j].sigma);
-    return sum;
+  double StepOf(const Row::Uncertain& uncertain) const {
+    constexpr double kLeastPart = 0.1;
+    return kDifferenceStep * std::max(std::fabs(inputs_[uncertain.input]), kLeastPart * uncertain.size);
   }
 
   // J, a column for each input with an error. Beyond a rule of the scene the other side counts.
-  MatrixXd SlopesAt(const Table& columns, size_t at, const VectorXd& predicted) const {
-    MatrixXd slopes(predicted.size(), static_cast<Index>(uncertain_.size()));
-    for (size_t j = 0; j < uncertain_.size(); ++j) {
-      const VectorXd below = (predicted - PredictedAt(columns, at + 1 + 2 * j)) / StepOf(j);
-      const VectorXd above = (PredictedAt(columns, at + 2 + 2 * j) - predicted) / StepOf(j);
+  MatrixXd SlopesIn(const Table& columns, size_t at, const VectorXd& predicted) const {
+    MatrixXd slopes(predicted.size(), static_cast<Index>(row_.uncertain().size()));
+    for (size_t j = 0; j < row_.uncertain().size(); ++j) {
+      const double step = StepOf(row_.uncertain()[j]);
+      const VectorXd below = (predicted - row_.PredictedIn(columns, at + 1 + 2 * j)) / step;
+      const VectorXd above = (row_.PredictedIn(columns, at + 2 + 2 * j) - predicted) / step;
       for (Index i = 0; i < predicted.size(); ++i) {
         slopes(i, static_cast<Index>(j)) = MeanOfSides(below[i], above[i]);
       }
@@ -118,87 +176,154 @@ class Settling {
   }
 
   // The present inputs are the best ones so far. Sets where the search goes from there, too.
-  void SetBest(const VectorXd& predicted, const MatrixXd& slopes) {
-    const auto count = static_cast<Index>(uncertain_.size());
-    VectorXd difference(predicted.size());
-    for (Index i = 0; i < predicted.size(); ++i) difference[i] = NumberAt(i).value - predicted[i];
-    MatrixXd in_sigmas = slopes;  // J diag(s_z)
-    for (Index j = 0; j < count; ++j) {
-      difference -= slopes.col(j) * Shift(static_cast<size_t>(j));
-      in_sigmas.col(j) *= uncertain_[static_cast<size_t>(j)].sigma;
+  void SetBest() {
+    MatrixXd in_sigmas = slopes_;  // J diag(s_z)
+    for (Index j = 0; j < in_sigmas.cols(); ++j) in_sigmas.col(j) *= row_.uncertain()[static_cast<size_t>(j)].sigma;
+    MatrixXd stacked = MatrixXd::Zero(row_.count() + in_sigmas.cols(), row_.count());
+    VectorXd measured(row_.count());
+    for (Index i = 0; i < row_.count(); ++i) {
+      measured[i] = row_.NumberAt(i).value;
+      stacked(i, i) = row_.NumberAt(i).sigma;
     }
-    const MatrixXd root = RootOf(in_sigmas);
-    const auto lower = root.triangularView<Eigen::Lower>();
-    best_ = {.inputs = inputs_, .residuals = lower.solve(difference), .root = root};
-    const VectorXd shift = in_sigmas.transpose() * lower.transpose().solve(best_.residuals);
-    // On a corner the linear prediction promises less than the inputs attain.
-    const double promised = best_.residuals.squaredNorm();
-    if (attained_ > (1.0 + kSettled) * promised && promised > 0.0) best_.residuals *= std::sqrt(attained_ / promised);
-    target_ = inputs_;
-    for (Index j = 0; j < count; ++j) {
-      const auto& [input, sigma] = uncertain_[static_cast<size_t>(j)];
-      target_[input] = stated_[input] + sigma * shift[j];
-    }
-  }
-
-  // Returns L. It is the triangular factor of the rows of diag(s_y) and J diag(s_z) side by side, whose squares would
-  // hide a small s_y beside what the inputs do.
-  MatrixXd RootOf(const MatrixXd& in_sigmas) const {
-    const Index count = in_sigmas.rows();
-    MatrixXd stacked = MatrixXd::Zero(count + in_sigmas.cols(), count);
-    for (Index i = 0; i < count; ++i) stacked(i, i) = NumberAt(i).sigma;
     stacked.bottomRows(in_sigmas.cols()) = in_sigmas.transpose();
-    const Eigen::HouseholderQR<MatrixXd> factors(stacked);
-    return factors.matrixQR().topRows(count).triangularView<Eigen::Upper>().toDenseMatrix().transpose();
-  }
-
-  // Goes `part` of the way from the best inputs to the present target, which becomes the target. Returns false if that
-  // is no way at all.
-  bool Step(double part) {
-    bool is_settled = true;
-    for (const auto& [input, sigma] : uncertain_) {
-      target_[input] = best_.inputs[input] + part * (target_[input] - best_.inputs[input]);
-      is_settled = is_settled && !(std::fabs(target_[input] - best_.inputs[input]) > kSettled * sigma);
+    best_.inputs = inputs_;
+    best_.predicted = predicted_ + slopes_ * row_.ShiftFrom(inputs_);
+    best_.sigmas = stacked.colwise().norm().transpose();
+    best_.whitening = WhiteningOf(stacked);
+    best_.residuals = best_.whitening * (measured - best_.predicted);
+    const VectorXd shift = in_sigmas.transpose() * (best_.whitening.transpose() * best_.residuals);
+    target_ = inputs_;
+    for (Index j = 0; j < shift.size(); ++j) {
+      const Row::Uncertain& uncertain = row_.uncertain()[static_cast<size_t>(j)];
+      target_[uncertain.input] = row_.stated()[uncertain.input] + uncertain.sigma * shift[j];
     }
-    inputs_ = target_;
-    return !is_settled && steps_ < kMostSteps;
   }
 
-  const Problem& problem_;
+  // Returns R for C = A^T A. C itself would hide a small s_y beside what the inputs do.
+  MatrixXd WhiteningOf(const MatrixXd& a) const {
+    if (row_.has_robust_loss()) {
+      const Eigen::JacobiSVD<MatrixXd> parts(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      return parts.matrixV() * parts.singularValues().cwiseInverse().asDiagonal() * parts.matrixV().transpose();
+    }
+    const MatrixXd root = Eigen::HouseholderQR<MatrixXd>(a).matrixQR().topRows(a.cols()).transpose();
+    return root.triangularView<Eigen::Lower>().solve(MatrixXd::Identity(a.cols(), a.cols()));
+  }
+
+  double WayOf(size_t input) const { return target_[input] - best_.inputs[input]; }
+
+  // True if this part of the way from the best inputs to the target is more than nothing.
+  bool Moves(double part) const {
+    return std::any_of(row_.uncertain().begin(), row_.uncertain().end(), [&](const Row::Uncertain& uncertain) {
+      return std::fabs(part * WayOf(uncertain.input)) > kSettled * uncertain.sigma;
+    });
+  }
+
+  void Step() {
+    inputs_ = best_.inputs;
+    for (const Row::Uncertain& uncertain : row_.uncertain()) {
+      inputs_[uncertain.input] += part_ * WayOf(uncertain.input);
+    }
+  }
+
+  const Row& row_;
   const std::vector<double>& unknowns_;
-  size_t first_;
-  std::vector<Uncertain> uncertain_;
-  std::vector<double> stated_, inputs_, target_;
+  std::vector<double> inputs_, target_;
+  VectorXd predicted_;  // For the best inputs, as slopes_.
+  MatrixXd slopes_;     // J
   SettledRow best_;
   double attained_ = std::numeric_limits<double>::infinity();
+  double part_ = 1.0;  // What the next step goes of the way to the target.
   int steps_ = 0;
-  bool is_done_ = false;
+  bool is_done_;
 };
+
+// Takes searches to their ends.
+bool Run(const Problem& problem, std::deque<Search>& searches, SolveTable solve) {
+  std::vector<Search*> waiting;
+  for (Search& one : searches) waiting.push_back(&one);
+  while (true) {
+    std::erase_if(waiting, [](const Search* one) { return one->is_done(); });
+    if (waiting.empty()) return true;
+    Table fields(problem.batch.fields.size()), columns;
+    for (const Search* const one : waiting) one->AppendPlaces(fields);
+    if (!solve(fields, columns)) return false;
+    size_t at = 0;
+    for (Search* const one : waiting) {
+      one->Take(columns, at);
+      at += one->places();
+    }
+  }
+}
+
+// The places where a further search of a row may start: on each side of each input, from near to far.
+std::vector<std::vector<double>> ProbesOf(const Row& row) {
+  std::vector<std::vector<double>> probes;
+  if (row.count() == 0) return probes;
+  for (const Row::Uncertain& uncertain : row.uncertain()) {
+    for (const double side : {-1.0, 1.0}) {
+      for (const double distance : kProbes) {
+        probes.push_back(row.stated());
+        probes.back()[uncertain.input] += side * distance * std::min(uncertain.sigma, uncertain.size);
+      }
+    }
+  }
+  return probes;
+}
+
+// Adds a search to `further` from the nearest probe on each side that surprises one of `searches`, and to `of` which
+// one that is.
+bool LookFurther(const Problem& problem, const std::deque<Search>& searches, SolveTable solve,
+                 std::deque<Search>& further, std::vector<size_t>& of) {
+  Table fields(problem.batch.fields.size()), columns;
+  for (const Search& one : searches) {
+    for (const std::vector<double>& probe : ProbesOf(one.row())) AppendPlace(one.unknowns(), probe, fields);
+  }
+  if (fields.front().empty()) return true;
+  if (!solve(fields, columns)) return false;
+  size_t at = 0;
+  for (size_t i = 0; i < searches.size(); ++i) {
+    const Search& one = searches[i];
+    const std::vector<std::vector<double>> probes = ProbesOf(one.row());
+    bool has_started = false;
+    for (size_t p = 0; p < probes.size(); ++p) {
+      if (p % kProbes.size() == 0) has_started = false;
+      const VectorXd predicted = one.row().PredictedIn(columns, at++);
+      if (has_started || !one.IsSurprising(predicted, probes[p])) continue;
+      has_started = true;
+      further.emplace_back(one.row(), one.unknowns(), probes[p]);
+      of.push_back(i);
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
 bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, std::vector<SettledRow>& rows) {
-  std::vector<Settling> all;
+  std::vector<double> sizes;
+  for (const std::vector<double>& column : problem.inputs) {
+    double size = 0.0;
+    for (const double value : column) size = std::max(size, std::fabs(value));
+    sizes.push_back(size);
+  }
+  std::deque<Row> of_problem;
+  for (size_t row = 0; row < problem.rows; ++row) of_problem.emplace_back(problem, row, sizes);
+  std::deque<Search> searches, further;
   for (const std::vector<double>& unknowns : points) {
-    for (size_t row = 0; row < problem.rows; ++row) all.emplace_back(problem, row, unknowns);
+    for (const Row& row : of_problem) searches.emplace_back(row, unknowns, row.stated());
   }
-  std::vector<Settling*> waiting;
-  for (Settling& one : all) {
-    if (!one.is_done()) waiting.push_back(&one);
-  }
-  while (!waiting.empty()) {
-    Table fields(problem.batch.fields.size()), columns;
-    for (const Settling* const one : waiting) one->AppendPlaces(fields);
-    if (!solve(fields, columns)) return false;
-    size_t at = 0;
-    for (Settling* const one : waiting) {
-      one->Take(columns, at);
-      at += one->places();
-    }
-    std::erase_if(waiting, [](const Settling* one) { return one->is_done(); });
-  }
+  std::vector<size_t> of;
+  if (!Run(problem, searches, solve) || !LookFurther(problem, searches, solve, further, of)) return false;
+  if (!Run(problem, further, solve)) return false;
   rows.clear();
-  for (Settling& one : all) rows.push_back(std::move(one).settled());
+  for (const Search& one : searches) rows.push_back(one.best());
+  std::vector<double> attained;
+  for (const Search& one : searches) attained.push_back(one.attained());
+  for (size_t i = 0; i < further.size(); ++i) {
+    if (!(further[i].attained() < attained[of[i]])) continue;
+    attained[of[i]] = further[i].attained();
+    rows[of[i]] = further[i].best();
+  }
   return true;
 }
 

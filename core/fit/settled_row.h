@@ -5,12 +5,13 @@
 //
 //   |(y - f(x)) / s_y|^2 + |(z - x) / s_z|^2
 //
-// where f is what the scene predicts. With J = df/dx beside that x, it is the square of the independent residuals
+// where f is what the scene predicts. With J = df/dx beside that x and d = y - f(x) - J (z - x), it is the square of the
+// independent residuals
 //
-//   e = L^-1 (y - f(x) - J (z - x)),   L L^T = diag(s_y^2) + J diag(s_z^2) J^T
+//   e = R d,   R^T R = C^-1,   C = diag(s_y^2) + J diag(s_z^2) J^T
 //
-// whose derivatives by the unknowns are -L^-1 df. Source: P. T. Boggs, R. H. Byrd, R. B. Schnabel, A stable and
-// efficient algorithm for nonlinear orthogonal distance regression, SIAM J. Sci. Stat. Comput. 8 (1987).
+// whose derivatives by the unknowns are -R df. Source: P. T. Boggs, R. H. Byrd, R. B. Schnabel, A stable and efficient
+// algorithm for nonlinear orthogonal distance regression, SIAM J. Sci. Stat. Comput. 8 (1987).
 
 #ifndef RICOCHET_CORE_FIT_SETTLED_ROW_H_
 #define RICOCHET_CORE_FIT_SETTLED_ROW_H_
@@ -25,9 +26,13 @@ namespace ricochet::fit {
 
 struct SettledRow {
   std::vector<double> inputs;  // All inputs of the row; those that have errors are x.
-  // NaN if the row has no prediction.
-  Eigen::VectorXd residuals;
-  Eigen::MatrixXd root;  // L
+  // One for each number of the row; NaN if the row has no prediction.
+  Eigen::VectorXd predicted;  // y - d, the prediction for the stated inputs by the course that x takes.
+  Eigen::VectorXd sigmas;     // The standard deviations of d.
+  Eigen::VectorXd residuals;  // e
+  // R: the inverse of a triangular root of C, or, for a robust loss, of the symmetric one, which does not depend on the
+  // order of the numbers.
+  Eigen::MatrixXd whitening;
 };
 
 // A column for each field of the problem's batch, or for each of its columns.
@@ -35,9 +40,10 @@ using Table = std::vector<std::vector<double>>;
 // Sets the measured columns of rows that are given by their fields. Returns false once it is stopped.
 using SolveTable = absl::FunctionRef<bool(const Table& fields, Table& columns)>;
 
-// Settles all rows of the problem at each of some values of the unknowns, one after the other. J is that of central
-// differences. Where f has a corner or a jump, the inputs found may not be the best ones; the residuals then have the
-// sum of squares that belongs to them. Returns false once `solve` does.
+// Settles all rows of the problem at each of some values of the unknowns, one after the other. A search starts from the
+// stated inputs, and from others nearby where f is not on its straight lines, as behind the threshold of another course.
+// J is that of central differences. If the best inputs lie on a corner of f, the residuals have the sum of squares that
+// belongs to the inputs found. Returns false once `solve` does.
 bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, std::vector<SettledRow>& rows);
 
 }  // namespace ricochet::fit

@@ -444,15 +444,14 @@ TEST(FitTest, ManyRowsOfInformationAskForAStopAndTellTheSame) {
   constexpr size_t kCount = 20000;
   problem.rows = kCount;
   problem.numbers.clear();
-  std::vector<double> slopes;
+  LinearResiduals residuals = {.values = std::vector<double>(kCount, 0.0), .sigmas = std::vector<double>(kCount, 0.5)};
   for (size_t i = 0; i < kCount; ++i) {
     problem.numbers.push_back({.row = i, .value = 1.0, .sigma = 0.5});
-    slopes.insert(slopes.end(), {-2.0, -2.0 * static_cast<double>(i + 1) / kCount});
+    residuals.slopes.insert(residuals.slopes.end(), {-2.0, -2.0 * static_cast<double>(i + 1) / kCount});
   }
-  const std::vector<double> residuals(kCount, 0.0);
   int questions = 0;
   const auto count = [&questions] { return ++questions < 0; };
-  const Information information = InformationOf(problem, {0.5, 0.5}, residuals, slopes, count);
+  const Information information = InformationOf(problem, {0.5, 0.5}, residuals, count);
   EXPECT_GE(questions, 8);
   constexpr double kAll = kCount;
   const double linear = (kAll + 1.0) / 2.0, square = (kAll + 1.0) * (2.0 * kAll + 1.0) / (6.0 * kAll);

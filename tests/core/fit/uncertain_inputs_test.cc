@@ -1,5 +1,6 @@
 // Fits whose inputs have errors, against sums of squares that are written out here.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -147,6 +148,113 @@ TEST(UncertainInputsTest, AnInputWithACurvedEffectIsFound) {
     least += sum(0.5 * (low + high));
   }
   EXPECT_NEAR(response->chi2, least, 1e-6 * least);
+}
+
+// The slip after is max(u - 4.5 mu, 0): behind the threshold the second row fits as well as before it.
+TEST(UncertainInputsTest, AnIntervalGoesOnBehindAThresholdOfTheInputs) {
+  const std::vector<double> stated = {3.0, 1.1, 2.5, 4.0}, measured = {1.895, 0.1, 1.325, 2.905};
+  const double before = 0.1, after = 0.01;
+  const FitRequest request = {
+      .scene = {.system =
+                    PlanarContact{.w_tt_per_kg = 3.0, .w_nn_per_kg = 1.0, .tangential_m_s = 1.0, .normal_m_s = -1.0},
+                .friction = {.kinetic_coefficient = 0.25},
+                .restitution = NewtonCoefficient{0.5}},
+      .unknowns = {{.path = "friction.kinetic_coefficient"}},
+      .inputs = {{"planar_contact.tangential_m_s", stated, {before}}},
+      .measured = {{kSlipAfter, measured, {after}}}};
+  const auto sum = [&](double mu) {
+    double squares = 0.0;
+    for (size_t row = 0; row < stated.size(); ++row) {
+      const double edge = 4.5 * mu;
+      const auto at = [&](double u) {
+        return std::pow((measured[row] - std::max(u - edge, 0.0)) / after, 2) + std::pow((u - stated[row]) / before, 2);
+      };
+      const double slips =
+          (stated[row] * after * after + (measured[row] + edge) * before * before) / (after * after + before * before);
+      squares += std::min(at(std::min(stated[row], edge)), at(std::max(slips, edge)));
+    }
+    return squares;
+  };
+  const absl::StatusOr<FitResponse> response = Fit(request, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  const FitEstimate& mu = response->unknowns[0];
+  EXPECT_NEAR(response->chi2, sum(mu.value), 1e-6 * response->chi2);
+  const auto is_inside = [&](double at) { return sum(at) < response->chi2 + kFitRiseOfInterval; };
+  EXPECT_NEAR(*mu.high.value, Bisected(mu.value, 0.4, is_inside), 1e-5);
+  EXPECT_NEAR(*mu.low.value, Bisected(mu.value, 0.0, is_inside), 1e-5);
+}
+
+TEST(UncertainInputsTest, AContactThatMayApproachIsNotRefused) {
+  FitRequest request = {.scene = {.system = Contact(), .restitution = NewtonCoefficient{0.5}},
+                        .unknowns = {{.path = "restitution.newton"}},
+                        .inputs = {{kBefore, {0.02, -1.0, -2.0}, {0.05}}},
+                        .measured = {{kAfter, {0.01, 0.52, 0.98}, {0.005}}}};
+  const absl::StatusOr<FitResponse> response = Fit(request, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_FALSE(response->refused);
+  const double e = response->unknowns[0].value;
+  // The first contact parts as it came, as that costs less than to strike.
+  double squares = 0.01 * 0.01 / (0.05 * 0.05 + 0.005 * 0.005);
+  for (size_t row = 1; row < 3; ++row) {
+    const double residual = request.measured[0].values[row] + e * request.inputs[0].values[row];
+    squares += residual * residual / (0.005 * 0.005 + e * e * 0.05 * 0.05);
+  }
+  EXPECT_NEAR(response->chi2, squares, 1e-6 * squares);
+}
+
+TEST(UncertainInputsTest, AContactStatedToPartIsFittedAsOneThatStrikes) {
+  const FitRequest request = {.scene = {.system = Contact(), .restitution = NewtonCoefficient{0.5}},
+                              .unknowns = {{.path = "restitution.newton"}},
+                              .inputs = {{kBefore, {0.02, -1.0, -2.0}, {0.05}}},
+                              .measured = {{"coefficients.newton", {0.5, 0.52, 0.49}, {0.02}}}};
+  const absl::StatusOr<FitResponse> response = Fit(request, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  const double mean = (0.5 + 0.52 + 0.49) / 3.0;
+  EXPECT_NEAR(response->unknowns[0].value, mean, 1e-6);
+  // The coefficient does not depend on the speed, as long as there is one.
+  const double squares =
+      std::pow(0.02 / 0.05, 2) +
+      (std::pow(0.5 - mean, 2) + std::pow(0.52 - mean, 2) + std::pow(0.49 - mean, 2)) / (0.02 * 0.02);
+  EXPECT_NEAR(response->chi2, squares, 0.05);
+  EXPECT_NE(response->rows[0].regime, Regime::kSeparating);
+  EXPECT_FALSE(response->refused);
+}
+
+TEST(UncertainInputsTest, ARobustFitDoesNotDependOnTheOrderOfTheNumbers) {
+  FitRequest request = Bounces(0.1, 0.08);
+  request.scene.friction.kinetic_coefficient = 0.2;
+  request.measured.push_back({kSlipAfter, {3.75, 3.55, 3.05, 2.75, 2.85, 1.35}, {0.05}});
+  for (const FitLoss loss : {FitLoss::kHuber, FitLoss::kCauchy}) {
+    request.loss = loss;
+    const absl::StatusOr<FitResponse> one = Fit(request, Never);
+    std::swap(request.measured[0], request.measured[1]);
+    const absl::StatusOr<FitResponse> other = Fit(request, Never);
+    ASSERT_TRUE(one.ok() && other.ok()) << one.status() << other.status();
+    EXPECT_NEAR(one->unknowns[0].value, other->unknowns[0].value, 1e-6);
+    EXPECT_NEAR(*one->unknowns[0].sigma, *other->unknowns[0].sigma, 1e-6);
+    EXPECT_NEAR(one->objective, other->objective, 1e-6 * one->objective);
+  }
+}
+
+TEST(UncertainInputsTest, ASmallSigmaBesideThatOfAnInputKeepsItsDegreesOfFreedom) {
+  for (const double ratio : {1e-7, 1e-9, 1e-12}) {
+    const double before = 0.1, after = 0.1 * ratio;
+    const absl::StatusOr<FitResponse> response = Fit(Bounces(before, after), Never);
+    ASSERT_TRUE(response.ok()) << response.status();
+    EXPECT_EQ(response->degrees_of_freedom, 5);
+    const double slope = -DemingSlope(before, after);
+    EXPECT_NEAR(response->unknowns[0].value, slope, 1e-4 * *response->unknowns[0].sigma) << ratio;
+    EXPECT_NEAR(response->chi2, SumOfBounces(slope, before, after), 1e-6 * response->chi2) << ratio;
+  }
+}
+
+TEST(UncertainInputsTest, AnErrorThatAllRowsShareHasANote) {
+  FitRequest request = Bounces(0.1, 0.1);
+  request.inputs.push_back({"planar_contact.w_nn_per_kg", {1.0}, {0.1}});
+  const absl::StatusOr<FitResponse> response = Fit(request, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_THAT(response->notes,
+              testing::Contains(testing::HasSubstr("planar_contact.w_nn_per_kg count as independent from row to row")));
 }
 
 // At the speed where slip just stops the prediction has a corner, on which the best inputs may lie.
