@@ -89,9 +89,12 @@ class Row {
   std::vector<Uncertain> uncertain_;
 };
 
-void AppendPlace(const std::vector<double>& unknowns, const std::vector<double>& inputs, Table& fields) {
+// Adds a place whose input `moved` is off by `distance`.
+void AppendPlace(const std::vector<double>& unknowns, const std::vector<double>& inputs, size_t moved, double distance,
+                 Table& fields) {
   for (size_t k = 0; k < unknowns.size(); ++k) fields[k].push_back(unknowns[k]);
   for (size_t i = 0; i < inputs.size(); ++i) fields[unknowns.size() + i].push_back(inputs[i]);
+  fields[unknowns.size() + moved].back() += distance;
 }
 
 // A search of a row for the inputs that fit best, at one value of the unknowns.
@@ -113,13 +116,10 @@ class Search {
 
   // Adds the fields of the places where the next step needs a prediction.
   void AppendPlaces(Table& fields) const {
-    AppendPlace(unknowns_, inputs_, fields);
+    AppendPlace(unknowns_, inputs_, 0, 0.0, fields);
     for (const Row::Uncertain& uncertain : row_.uncertain()) {
-      for (const double side : {-1.0, 1.0}) {
-        std::vector<double> beside = inputs_;
-        beside[uncertain.input] += side * StepOf(uncertain);
-        AppendPlace(unknowns_, beside, fields);
-      }
+      const double step = StepOf(uncertain);
+      for (const double distance : {-step, step}) AppendPlace(unknowns_, inputs_, uncertain.input, distance, fields);
     }
   }
 
@@ -145,12 +145,13 @@ class Search {
     if (is_on_corner && promised > 0.0) best_.residuals *= std::sqrt(attained_ / promised);
   }
 
-  // True if other inputs have a prediction that is not on the straight lines at the best ones.
-  bool IsSurprising(const VectorXd& predicted, const std::vector<double>& inputs) const {
+  // True if the stated inputs have a prediction, with the j-th uncertain one off by `distance`, that is not on the
+  // straight lines at the best ones.
+  bool IsSurprising(const VectorXd& predicted, size_t j, double distance) const {
     if (!predicted.allFinite() || !std::isfinite(attained_)) return predicted.allFinite();
-    const VectorXd on_lines = predicted_ + slopes_ * (row_.ShiftFrom(best_.inputs) - row_.ShiftFrom(inputs));
     for (Index i = 0; i < predicted.size(); ++i) {
-      if (!(std::fabs(predicted[i] - on_lines[i]) <= kSurprise * row_.NumberAt(i).sigma)) return true;
+      const double on_line = best_.predicted[i] + distance * slopes_(i, static_cast<Index>(j));
+      if (!(std::fabs(predicted[i] - on_line) <= kSurprise * row_.NumberAt(i).sigma)) return true;
     }
     return false;
   }
@@ -255,16 +256,19 @@ bool Run(const Problem& problem, std::deque<Search>& searches, SolveTable solve)
   }
 }
 
-// The places where a further search of a row may start: on each side of each input, from near to far.
-std::vector<std::vector<double>> ProbesOf(const Row& row) {
-  std::vector<std::vector<double>> probes;
-  if (row.count() == 0) return probes;
-  for (const Row::Uncertain& uncertain : row.uncertain()) {
+// A place where a further search of a row may start: the j-th uncertain input is off by a distance.
+struct Probe {
+  size_t j;
+  double distance;
+};
+
+// Returns those on each side of each input, from near to far.
+std::vector<Probe> ProbesOf(const Row& row) {
+  std::vector<Probe> probes;
+  for (size_t j = 0; j < row.uncertain().size() && row.count() > 0; ++j) {
+    const double unit = std::min(row.uncertain()[j].sigma, row.uncertain()[j].size);
     for (const double side : {-1.0, 1.0}) {
-      for (const double distance : kProbes) {
-        probes.push_back(row.stated());
-        probes.back()[uncertain.input] += side * distance * std::min(uncertain.sigma, uncertain.size);
-      }
+      for (const double distance : kProbes) probes.push_back({j, side * distance * unit});
     }
   }
   return probes;
@@ -276,21 +280,26 @@ bool LookFurther(const Problem& problem, const std::deque<Search>& searches, Sol
                  std::deque<Search>& further, std::vector<size_t>& of) {
   Table fields(problem.batch.fields.size()), columns;
   for (const Search& one : searches) {
-    for (const std::vector<double>& probe : ProbesOf(one.row())) AppendPlace(one.unknowns(), probe, fields);
+    for (const auto& [j, distance] : ProbesOf(one.row())) {
+      AppendPlace(one.unknowns(), one.row().stated(), one.row().uncertain()[j].input, distance, fields);
+    }
   }
   if (fields.front().empty()) return true;
   if (!solve(fields, columns)) return false;
   size_t at = 0;
   for (size_t i = 0; i < searches.size(); ++i) {
     const Search& one = searches[i];
-    const std::vector<std::vector<double>> probes = ProbesOf(one.row());
+    const std::vector<Probe> probes = ProbesOf(one.row());
     bool has_started = false;
     for (size_t p = 0; p < probes.size(); ++p) {
+      const auto& [j, distance] = probes[p];
       if (p % kProbes.size() == 0) has_started = false;
       const VectorXd predicted = one.row().PredictedIn(columns, at++);
-      if (has_started || !one.IsSurprising(predicted, probes[p])) continue;
+      if (has_started || !one.IsSurprising(predicted, j, distance)) continue;
       has_started = true;
-      further.emplace_back(one.row(), one.unknowns(), probes[p]);
+      std::vector<double> start = one.row().stated();
+      start[one.row().uncertain()[j].input] += distance;
+      further.emplace_back(one.row(), one.unknowns(), std::move(start));
       of.push_back(i);
     }
   }
