@@ -5,8 +5,8 @@
 //
 //   |(y - f(x)) / s_y|^2 + |(z - x) / s_z|^2
 //
-// where f is what the scene predicts. With J = df/dx beside that x and d = y - f(x) - J (z - x), it is the square of the
-// independent residuals
+// where f is what the scene predicts. With J = df/dx beside that x and d = y - f(x) - J (z - x), it is the square of
+// the independent residuals
 //
 //   e = R d,   R^T R = C^-1,   C = diag(s_y^2) + J diag(s_z^2) J^T
 //
@@ -41,9 +41,9 @@ using Table = std::vector<std::vector<double>>;
 using SolveTable = absl::FunctionRef<bool(const Table& fields, Table& columns)>;
 
 // Settles all rows of the problem at each of some values of the unknowns, one after the other. A search starts from the
-// stated inputs, and from others nearby where f is not on its straight lines, as behind the threshold of another course.
-// J is that of central differences. If the best inputs lie on a corner of f, the residuals have the sum of squares that
-// belongs to the inputs found. Returns false once `solve` does.
+// stated inputs, and from others nearby where f is not on its straight lines, as behind the threshold of another
+// course. J is that of central differences. If the best inputs lie on a corner of f, the residuals have the sum of
+// squares that belongs to the inputs found. Returns false once `solve` does.
 bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, std::vector<SettledRow>& rows);
 
 }  // namespace ricochet::fit
