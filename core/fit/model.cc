@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -124,10 +125,17 @@ bool Model::ResidualsAll(const Table& points, Table& residuals) {
     }
     return true;
   }
-  std::vector<SettledRow> rows;
-  if (!Settle(points, rows)) return false;
-  for (size_t point = 0; point < points.size(); ++point) {
-    Append(absl::MakeSpan(rows).subspan(point * problem_.rows, problem_.rows), residuals.emplace_back());
+  // A row that is being settled takes about a kilobyte.
+  constexpr size_t kMostTogether = 16384;
+  const size_t together = std::max<size_t>(kMostTogether / problem_.rows, 1);
+  for (size_t first = 0; first < points.size(); first += together) {
+    const size_t count = std::min(together, points.size() - first);
+    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(first);
+    std::vector<SettledRow> rows;
+    if (!Settle({begin, begin + static_cast<std::ptrdiff_t>(count)}, rows)) return false;
+    for (size_t point = 0; point < count; ++point) {
+      Append(absl::MakeSpan(rows).subspan(point * problem_.rows, problem_.rows), residuals.emplace_back());
+    }
   }
   return true;
 }

@@ -306,6 +306,22 @@ bool LookFurther(const Problem& problem, const std::deque<Search>& searches, Sol
   return true;
 }
 
+// Settles some searches from the stated inputs, and appends the rows.
+bool SettleBlock(const Problem& problem, std::deque<Search>& searches, SolveTable solve,
+                 std::vector<SettledRow>& rows) {
+  std::deque<Search> further;
+  std::vector<size_t> of;
+  if (!Run(problem, searches, solve) || !LookFurther(problem, searches, solve, further, of)) return false;
+  if (!Run(problem, further, solve)) return false;
+  std::vector<const Search*> best;
+  for (const Search& one : searches) best.push_back(&one);
+  for (size_t i = 0; i < further.size(); ++i) {
+    if (further[i].attained() < best[of[i]]->attained()) best[of[i]] = &further[i];
+  }
+  for (const Search* const one : best) rows.push_back(one->best());
+  return true;
+}
+
 }  // namespace
 
 bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, std::vector<SettledRow>& rows) {
@@ -317,21 +333,18 @@ bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, s
   }
   std::deque<Row> of_problem;
   for (size_t row = 0; row < problem.rows; ++row) of_problem.emplace_back(problem, row, sizes);
-  std::deque<Search> searches, further;
-  for (const std::vector<double>& unknowns : points) {
-    for (const Row& row : of_problem) searches.emplace_back(row, unknowns, row.stated());
-  }
-  std::vector<size_t> of;
-  if (!Run(problem, searches, solve) || !LookFurther(problem, searches, solve, further, of)) return false;
-  if (!Run(problem, further, solve)) return false;
   rows.clear();
-  for (const Search& one : searches) rows.push_back(one.best());
-  std::vector<double> attained;
-  for (const Search& one : searches) attained.push_back(one.attained());
-  for (size_t i = 0; i < further.size(); ++i) {
-    if (!(further[i].attained() < attained[of[i]])) continue;
-    attained[of[i]] = further[i].attained();
-    rows[of[i]] = further[i].best();
+  // A block takes little memory, and the caller can stop after it.
+  constexpr size_t kBlock = 1024;
+  std::deque<Search> searches;
+  for (size_t p = 0; p < points.size(); ++p) {
+    for (size_t row = 0; row < problem.rows; ++row) {
+      searches.emplace_back(of_problem[row], points[p], of_problem[row].stated());
+      const bool is_last = p + 1 == points.size() && row + 1 == problem.rows;
+      if (searches.size() < kBlock && !is_last) continue;
+      if (!SettleBlock(problem, searches, solve, rows)) return false;
+      searches.clear();
+    }
   }
   return true;
 }

@@ -96,7 +96,7 @@ TEST_F(CliAuditData, AnInputThatBreaksARuleOfTheSceneIsNamed) {
 TEST_F(CliAuditData, RatesStandBesideNoVelocityOfTheContact) {
   for (const char* column : {"tangential_m_s", "normal_m_s", "tangential_after_m_s", "normal_after_m_s"}) {
     EXPECT_THAT(Audit(std::string("rates_after_rad_s[0],rates_after_rad_s[1],") + column + "\n0,1,-1\n").err,
-                HasSubstr(std::string("columns.") + column + " is set: must not be beside rates_after"));
+                HasSubstr(std::string("column ") + column + " is set: must not be beside rates_after"));
   }
 }
 

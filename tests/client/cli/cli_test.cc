@@ -379,7 +379,7 @@ TEST_F(Cli, RefusesATableWithoutAKnownHeaderAndAnAuditOfNothing) {
   EXPECT_THAT(Run(with({"--data", "-"}), "rates_after_rad_s[0]\n1\n").err,
               HasSubstr("has some velocities of the system after the impact but not rates_after_rad_s[1]: must have"));
   EXPECT_THAT(Run(with({"--data", "-"}), "normal_after_m_s\n1\n").err,
-              HasSubstr("columns.tangential_after_m_s is not set"));
+              HasSubstr("column tangential_after_m_s is not set"));
   EXPECT_THAT(Run(with({"--observed-rate", "1"})).err, HasSubstr("rates.values has 1 entry: must have 2"));
   EXPECT_THAT(Run(with({"--observed-velocity", "1,x"})).err, HasSubstr("--observed-velocity = x"));
 }

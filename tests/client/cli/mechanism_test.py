@@ -67,11 +67,18 @@ class MechanismTest(RicochetCase):
         law = ["--mu", "0.3,0.4", "--energetic", "0.5,0.25"]
         self.assertEqual(self.made(*feet, *law, "--format", "json"),
                          self.made("multicontact", "--scene", "feet.json", "--format", "json"))
+        numpy.savez(WORK / "feet_held.npz", M=M, J=both, qdot=QDOT * [1, 1, 0])
+        scene = json.loads((WORK / "feet.json").read_text())
+        scene["mechanism"].update(rates=(QDOT * [1, 1, 0]).tolist(), kept_coordinates=[2])
+        (WORK / "feet_held.json").write_text(json.dumps(scene))
+        held = ["multicontact", "--mechanism", "feet_held.npz", "--keep", "2"]
+        self.assertEqual(self.made(*held, *law, "--format", "json"),
+                         self.made("multicontact", "--scene", "feet_held.json", "--format", "json"))
         for arguments, words in [
                 ([*feet, "--mu", "0.3,0.4"], "--mechanism needs --mu and --energetic"),
                 ([*feet, "--mu", "0.3,0.4", "--energetic", "0.5"], "--energetic = 0.5: must be as many as --mu, 2"),
                 ([*feet, "--mu", "1,1,1", "--energetic", "0,0,0"], "must be (6, 3) with rows t, n for each of the 3"),
-                (["multicontact", "--scene", "feet.json", "--mu", "1"], "--mu and --energetic need --mechanism"),
+                (["multicontact", "--scene", "feet.json", "--mu", "1"], "--mu, --energetic, --keep and --composite need --mechanism"),
                 (["multicontact"], "needs --scene FILE or --mechanism FILE.npz, and not both"),
                 ([*feet, *law, "--scene", "feet.json"], "needs --scene FILE or --mechanism FILE.npz, and not both")]:
             with self.subTest(words):
