@@ -29,10 +29,10 @@
 
 namespace ricochet {
 
-// The chunks, joined, and the summary are those of a call that nothing disturbed. It fails like a SweepReader; a server
-// that cannot be reached, or refuses the sweep by a limit or a right of its own, is a failure only once all servers are
-// that and have failed as often as the retry policy allows. Until then it is asked again and again, in case that it
-// comes back.
+// The chunks, joined, and the summary are those of a call that nothing disturbed. The sweep fails like a SweepReader.
+// It goes on without a server that cannot be reached as often as the retry policy allows, or that refuses it by a limit
+// or a right of its own, and fails once all servers are lost in one of these ways. Until then each is asked again and
+// again, in case that it comes back.
 //
 // Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
 class SweepFanOut {

@@ -39,11 +39,10 @@ constexpr double kLeastGain = 1e-6;
 
 // Refuses a start at which a measured number has no prediction.
 absl::Status CheckStart(const FitRequest& request, Model& model) {
-  std::vector<double> predicted;
-  if (model.Residuals(model.problem().start, predicted) || model.is_stopped()) return absl::OkStatus();
-  model.Predict(model.problem().start, predicted);
+  std::vector<double> residuals;
+  if (model.Residuals(model.problem().start, residuals)) return absl::OkStatus();
+  const std::optional<BadRow> found = model.Bad(model.problem().start);
   if (model.is_stopped()) return absl::OkStatus();
-  const std::optional<BadRow> found = model.Bad(predicted);
   if (!found.has_value()) return OutputOverflow("a residual at the start");
   const BadRow& bad = *found;
   const auto row = static_cast<size_t>(bad.row);
@@ -195,18 +194,18 @@ class Fitter {
     return true;
   }
 
-  // The best fit's number and a step, whose sum may round beyond a bound.
+  // The best fit's number and a step, whose sum may round beside a bound that it has reached.
   double PlaceOf(size_t k, double step) const {
-    return std::clamp(best_.at[k] + step, problem_.low[k], problem_.high[k]);
+    const double place = std::clamp(best_.at[k] + step, problem_.low[k], problem_.high[k]);
+    for (const double bound : {problem_.low[k], problem_.high[k]}) {
+      if (std::isfinite(bound) && std::fabs(place - bound) <= 0x1p-40 * std::fabs(best_.at[k] - bound)) return bound;
+    }
+    return place;
   }
 
   void SetEnd(const RayEnd& ray, double step, FitEnd& end, FitEstimate& estimate) const {
     const size_t k = response_.unknowns.size() - 1;
-    double value = PlaceOf(k, ray.distance * step);
-    // The sum may round beside the bound that it has reached.
-    for (const double bound : {problem_.low[k], problem_.high[k]}) {
-      if (std::isfinite(bound) && std::fabs(value - bound) <= 0x1p-40 * std::fabs(best_.at[k] - bound)) value = bound;
-    }
+    const double value = PlaceOf(k, ray.distance * step);
     end.kind = ray.kind;
     if (ray.kind == FitEndKind::kFound || ray.kind == FitEndKind::kCutByBound) end.value = value;
     // The data do not determine this number, so a bound that it reaches is not an end that the data gave.

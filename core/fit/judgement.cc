@@ -31,9 +31,9 @@ constexpr double kSamePlace = 0.1;
 constexpr double kSamePart = 1e-3;
 
 void SetRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
-  std::vector<double> predicted, residuals;
+  std::vector<double> predicted;
   std::vector<Regime> regimes(problem.rows);
-  if (!model.PredictRows(best, regimes, predicted)) predicted.clear();
+  model.PredictRows(best, regimes, predicted);
   const std::vector<double> sigmas = model.Sigmas(best);
   FitRow empty = {.predicted = std::vector<double>(problem.columns(), kNone),
                   .residuals = std::vector<double>(problem.columns(), kNone)};
@@ -48,8 +48,7 @@ void SetRows(const Problem& problem, const std::vector<double>& best, Model& mod
     if (probability * static_cast<double>(predicted.size()) >= kOutlierBelow) continue;
     response.outliers.push_back({static_cast<int64_t>(number.row), problem.batch.columns[number.column], residual});
   }
-  model.Residuals(best, residuals);
-  for (const double residual : residuals) response.objective += LossOf(problem, residual * residual).loss;
+  response.objective = ObjectiveAt(best, model);
   std::stable_sort(response.outliers.begin(), response.outliers.end(), [](const FitOutlier& a, const FitOutlier& b) {
     return std::fabs(a.residual) > std::fabs(b.residual);
   });

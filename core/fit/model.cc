@@ -13,6 +13,7 @@ namespace ricochet::fit {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 // The slope that a search can use where the sides differ.
 double SlopeOf(const Derivative& derivative) {
   if (derivative.value.has_value()) return *derivative.value;
@@ -59,23 +60,24 @@ bool Model::Solve(const Table& fields, Solved& solved) {
 bool Model::SolveHere(const std::vector<double>& unknowns) {
   if (unknowns == at_) return !is_stopped_;
   at_ = unknowns;
-  return SolveAt({at_}, problem_.inputs, here_);
+  return SolveAt({at_}, InputsAt(at_), here_);
 }
 
-bool Model::Settle(const Table& points, std::vector<SettledRow>& rows) {
+bool Model::Settle(const Table& points, TakeRow take) {
   const auto solve = [this](const Table& fields, Table& columns) {
     Solved solved;
     if (!Solve(fields, solved)) return false;
     columns = std::move(solved.columns);
     return true;
   };
-  return SettleRows(problem_, points, solve, rows);
+  return SettleRows(problem_, points, solve, take);
 }
 
 bool Model::SettleHere(const std::vector<double>& unknowns) {
   if (unknowns == settled_at_) return !is_stopped_;
   settled_at_ = unknowns;
-  if (!Settle({unknowns}, settled_)) return false;
+  settled_.clear();
+  if (!Settle({unknowns}, [this](const SettledRow& row) { settled_.push_back(row); })) return false;
   settled_inputs_ = problem_.inputs;
   for (size_t row = 0; row < settled_.size(); ++row) {
     for (size_t i = 0; i < settled_inputs_.size(); ++i) settled_inputs_[i][row] = settled_[row].inputs[i];
@@ -87,31 +89,27 @@ const Table& Model::InputsAt(const std::vector<double>& unknowns) {
   return problem_.has_uncertain_inputs() && SettleHere(unknowns) ? settled_inputs_ : problem_.inputs;
 }
 
-bool Model::Predict(const std::vector<double>& unknowns, std::vector<double>& predicted) {
-  if (!SolveHere(unknowns)) return false;
-  predicted = NumbersOf(here_, 0);
-  return std::all_of(predicted.begin(), predicted.end(), [](double value) { return std::isfinite(value); });
-}
-
 // Replaces predicted numbers by their residuals.
 static void SubtractFrom(const std::vector<Number>& numbers, std::vector<double>& predicted) {
   for (size_t i = 0; i < numbers.size(); ++i) predicted[i] = numbers[i].Residual(predicted[i]);
 }
 
-// Appends the residuals of all rows at one point.
-static void Append(absl::Span<const SettledRow> rows, std::vector<double>& residuals) {
-  for (const SettledRow& row : rows) residuals.insert(residuals.end(), row.residuals.begin(), row.residuals.end());
+static void Append(const Eigen::VectorXd& of_row, std::vector<double>& numbers) {
+  numbers.insert(numbers.end(), of_row.begin(), of_row.end());
 }
 
 bool Model::Residuals(const std::vector<double>& unknowns, std::vector<double>& residuals) {
+  residuals.clear();
   if (!problem_.has_uncertain_inputs()) {
-    const bool exist = Predict(unknowns, residuals);
-    if (!is_stopped_) SubtractFrom(problem_.numbers, residuals);
+    if (!SolveHere(unknowns)) return false;
+    residuals = NumbersOf(here_, 0);
+    const bool exist =
+        std::all_of(residuals.begin(), residuals.end(), [](double value) { return std::isfinite(value); });
+    SubtractFrom(problem_.numbers, residuals);
     return exist;
   }
   if (!SettleHere(unknowns)) return false;
-  residuals.clear();
-  Append(settled_, residuals);
+  for (const SettledRow& row : settled_) Append(row.residuals, residuals);
   return std::none_of(residuals.begin(), residuals.end(), [](double value) { return std::isnan(value); });
 }
 
@@ -125,19 +123,11 @@ bool Model::ResidualsAll(const Table& points, Table& residuals) {
     }
     return true;
   }
-  // A row that is being settled takes about a kilobyte.
-  constexpr size_t kMostTogether = 16384;
-  const size_t together = std::max<size_t>(kMostTogether / problem_.rows, 1);
-  for (size_t first = 0; first < points.size(); first += together) {
-    const size_t count = std::min(together, points.size() - first);
-    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(first);
-    std::vector<SettledRow> rows;
-    if (!Settle({begin, begin + static_cast<std::ptrdiff_t>(count)}, rows)) return false;
-    for (size_t point = 0; point < count; ++point) {
-      Append(absl::MakeSpan(rows).subspan(point * problem_.rows, problem_.rows), residuals.emplace_back());
-    }
-  }
-  return true;
+  size_t settled = 0;
+  return Settle(points, [&](const SettledRow& row) {
+    if (settled++ % problem_.rows == 0) residuals.emplace_back();
+    Append(row.residuals, residuals.back());
+  });
 }
 
 std::vector<double> Model::Sigmas(const std::vector<double>& unknowns) {
@@ -145,19 +135,19 @@ std::vector<double> Model::Sigmas(const std::vector<double>& unknowns) {
   for (const Number& number : problem_.numbers) sigmas.push_back(number.sigma);
   if (!problem_.has_uncertain_inputs() || !SettleHere(unknowns)) return sigmas;
   sigmas.clear();
-  for (const SettledRow& row : settled_) sigmas.insert(sigmas.end(), row.sigmas.begin(), row.sigmas.end());
+  for (const SettledRow& row : settled_) Append(row.sigmas, sigmas);
   return sigmas;
 }
 
 bool Model::PredictRows(const std::vector<double>& unknowns, std::vector<Regime>& regimes,
                         std::vector<double>& predicted) {
-  Solved solved;
-  if (!SolveAt({unknowns}, InputsAt(unknowns), solved)) return false;
-  regimes = std::move(solved.regimes);
-  predicted = NumbersOf(solved, 0);
+  if (!SolveHere(unknowns)) return false;
+  regimes = here_.regimes;
+  predicted = NumbersOf(here_, 0);
   if (!problem_.has_uncertain_inputs()) return true;
+  if (!SettleHere(unknowns)) return false;
   predicted.clear();
-  for (const SettledRow& row : settled_) predicted.insert(predicted.end(), row.predicted.begin(), row.predicted.end());
+  for (const SettledRow& row : settled_) Append(row.predicted, predicted);
   return true;
 }
 
@@ -179,11 +169,14 @@ std::vector<double> Model::NumbersOf(const Solved& solved, size_t point) const {
   return numbers;
 }
 
-std::optional<BadRow> Model::Bad(const std::vector<double>& predicted) const {
+std::optional<BadRow> Model::Bad(const std::vector<double>& unknowns) {
+  Solved solved;
+  if (!SolveAt({unknowns}, problem_.inputs, solved)) return std::nullopt;
+  const std::vector<double> predicted = NumbersOf(solved, 0);
   for (size_t i = 0; i < predicted.size(); ++i) {
     if (std::isfinite(predicted[i])) continue;
     const auto row = static_cast<int64_t>(problem_.numbers[i].row);
-    for (const BadRow& bad : here_.bad_rows) {
+    for (const BadRow& bad : solved.bad_rows) {
       if (bad.row == row) return bad;
     }
     return BadRow{.row = row, .field = problem_.batch.columns[problem_.numbers[i].column], .description = ""};
@@ -247,8 +240,9 @@ bool Model::Exact(const std::vector<double>& unknowns, const std::vector<bool>& 
 
 bool Model::Sides(const std::vector<double>& unknowns, const std::vector<bool>& is_free, std::vector<double>& below,
                   std::vector<double>& above) {
-  // Each side of a free unknown is a point, after the one between them.
-  Table points = {unknowns};
+  if (!SolveHere(unknowns)) return false;
+  // Each side of a free unknown is a point.
+  Table points;
   for (size_t k = 0; k < unknowns.size(); ++k) {
     if (!is_free[k]) continue;
     const double step = kDifferenceStep * std::max(std::fabs(unknowns[k]), 1e-3 * problem_.scale[k]);
@@ -258,16 +252,16 @@ bool Model::Sides(const std::vector<double>& unknowns, const std::vector<bool>& 
       points.back()[k] = value < problem_.low[k] || value > problem_.high[k] ? kNone : value;
     }
   }
-  Solved solved;
-  if (!SolveAt(points, InputsAt(unknowns), solved)) return false;
+  Solved beside;
+  if (!SolveAt(points, InputsAt(unknowns), beside)) return false;
   below.assign(problem_.numbers.size() * unknowns.size(), 0.0);
   above = below;
-  const std::vector<double> here = NumbersOf(solved, 0);
-  size_t point = 1;
+  const std::vector<double> here = NumbersOf(here_, 0);
+  size_t point = 0;
   for (size_t k = 0; k < unknowns.size(); ++k) {
     if (!is_free[k]) continue;
     for (std::vector<double>* const side : {&below, &above}) {
-      const std::vector<double> there = NumbersOf(solved, point);
+      const std::vector<double> there = NumbersOf(beside, point);
       for (size_t i = 0; i < here.size(); ++i) {
         (*side)[i * unknowns.size() + k] = (there[i] - here[i]) / (points[point][k] - unknowns[k]);
       }

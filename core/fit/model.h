@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "absl/functional/function_ref.h"
-#include "absl/types/span.h"
 #include "core/fit/fit.h"
 #include "core/fit/problem.h"
 #include "core/fit/settled_row.h"
@@ -33,9 +32,6 @@ class Model {
   // Asks `stopped`, for work between the functions below that takes long.
   bool Stops() { return is_stopped_ = is_stopped_ || stopped_(); }
 
-  // Sets the numbers predicted for the stated inputs and returns true if all exist. The rows of Bad are those of the
-  // last call.
-  bool Predict(const std::vector<double>& unknowns, std::vector<double>& predicted);
   // Sets the residuals and returns true if all numbers have a prediction.
   bool Residuals(const std::vector<double>& unknowns, std::vector<double>& residuals);
   // Sets the residuals at each of some points, NaN for a number without prediction. Returns false once it is stopped.
@@ -46,8 +42,8 @@ class Model {
   std::vector<double> Sigmas(const std::vector<double>& unknowns);
   // The rows whose outcome breaks a limit: energy appears, or friction works along the slip.
   std::vector<size_t> Inadmissible(const std::vector<double>& unknowns);
-  // Returns the first measured number that has no prediction, and why.
-  std::optional<BadRow> Bad(const std::vector<double>& predicted) const;
+  // Returns the first measured number that has no prediction for the stated inputs, and why.
+  std::optional<BadRow> Bad(const std::vector<double>& unknowns);
 
   // Sets the derivatives of the residuals by the free unknowns, 0 for others: exact ones if there are, the mean of both
   // sides where they differ; else differences, 0 for a number without neighbours. Returns false once it is stopped.
@@ -72,7 +68,7 @@ class Model {
   // Solves the rows of all points together, so that they share the lanes and the threads.
   bool SolveAt(const Table& points, const Table& inputs, Solved& solved);
   bool SolveHere(const std::vector<double>& unknowns);
-  bool Settle(const Table& points, std::vector<SettledRow>& rows);
+  bool Settle(const Table& points, TakeRow take);
   bool SettleHere(const std::vector<double>& unknowns);
   // The inputs that fit best, a column for each.
   const Table& InputsAt(const std::vector<double>& unknowns);
@@ -87,7 +83,8 @@ class Model {
   absl::FunctionRef<bool()> stopped_;
   bool is_stopped_ = false;
   DrivenScene driven_;
-  // The last point that was predicted. A search asks for the derivatives where it asked for the numbers last.
+  // The last point that was solved, at the inputs that fit best. A search asks for the slopes where it asked for the
+  // residuals last.
   std::vector<double> at_;
   Solved here_;
   // The last point at which rows were settled, if inputs have errors.

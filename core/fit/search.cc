@@ -117,12 +117,6 @@ double ObjectiveOf(const Problem& problem, const std::vector<double>& residuals)
   return sum;
 }
 
-double ObjectiveAt(const std::vector<double>& at, Model& model) {
-  std::vector<double> residuals;
-  if (!model.Residuals(at, residuals)) return std::numeric_limits<double>::infinity();
-  return ObjectiveOf(model.problem(), residuals);
-}
-
 struct Step {
   bool is_at_bound = false;      // The minimum is better by more than the tolerance, and lies at a bound.
   bool has_turned_back = false;  // The search met a place without predictions.
@@ -201,6 +195,12 @@ Loss LossOf(const Problem& problem, double squared_residual) {
       break;
   }
   return {.loss = squared_residual, .weight = 1.0};
+}
+
+double ObjectiveAt(const std::vector<double>& at, Model& model) {
+  std::vector<double> residuals;
+  if (!model.Residuals(at, residuals)) return std::numeric_limits<double>::infinity();
+  return ObjectiveOf(model.problem(), residuals);
 }
 
 std::vector<double> ObjectivesAt(const std::vector<std::vector<double>>& points, Model& model) {

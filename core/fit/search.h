@@ -21,7 +21,9 @@ struct Minimum {
 // A fit whose objective is larger by at most this counts as equally good.
 inline constexpr double kAsGood = 1e-6;
 
-// The sum of the losses at each point; infinite where a number has no prediction.
+// The sum of the losses; infinite where a number has no prediction.
+double ObjectiveAt(const std::vector<double>& at, Model& model);
+// Returns it for each point, all of which are solved together.
 std::vector<double> ObjectivesAt(const std::vector<std::vector<double>>& points, Model& model);
 
 // The tolerance of a search whose minimum is wanted to all digits.

@@ -30,7 +30,7 @@ constexpr std::array<double, 3> kProbes = {0.75, 1.5, 3.0};
 // part of its sigma.
 constexpr double kSurprise = 0.1;
 
-// What a row states and measured.
+// The inputs that a row states, and the numbers that it measured.
 class Row {
  public:
   struct Uncertain {
@@ -61,7 +61,7 @@ class Row {
     return predicted;
   }
 
-  // What the stated inputs with errors exceed others by.
+  // Returns how far the stated inputs with errors lie above others.
   VectorXd ShiftFrom(const std::vector<double>& inputs) const {
     VectorXd shift(static_cast<Index>(uncertain_.size()));
     for (Index j = 0; j < shift.size(); ++j) {
@@ -130,9 +130,8 @@ class Search {
     const double attained = row_.Objective(predicted, inputs_);
     if (attained < attained_) {
       attained_ = attained;
-      predicted_ = predicted;
       slopes_ = SlopesIn(columns, at, predicted);
-      SetBest();
+      SetBest(predicted);
       part_ = std::min(1.0, 2.0 * part_);
     } else {
       part_ *= 0.5;  // The way leads beyond a corner.
@@ -177,7 +176,7 @@ class Search {
   }
 
   // The present inputs are the best ones so far. Sets where the search goes from there, too.
-  void SetBest() {
+  void SetBest(const VectorXd& predicted) {
     MatrixXd in_sigmas = slopes_;  // J diag(s_z)
     for (Index j = 0; j < in_sigmas.cols(); ++j) in_sigmas.col(j) *= row_.uncertain()[static_cast<size_t>(j)].sigma;
     MatrixXd stacked = MatrixXd::Zero(row_.count() + in_sigmas.cols(), row_.count());
@@ -188,7 +187,7 @@ class Search {
     }
     stacked.bottomRows(in_sigmas.cols()) = in_sigmas.transpose();
     best_.inputs = inputs_;
-    best_.predicted = predicted_ + slopes_ * row_.ShiftFrom(inputs_);
+    best_.predicted = predicted + slopes_ * row_.ShiftFrom(inputs_);
     best_.sigmas = stacked.colwise().norm().transpose();
     best_.whitening = WhiteningOf(stacked);
     best_.residuals = best_.whitening * (measured - best_.predicted);
@@ -229,8 +228,7 @@ class Search {
   const Row& row_;
   const std::vector<double>& unknowns_;
   std::vector<double> inputs_, target_;
-  VectorXd predicted_;  // For the best inputs, as slopes_.
-  MatrixXd slopes_;     // J
+  MatrixXd slopes_;  // J at the best inputs.
   SettledRow best_;
   double attained_ = std::numeric_limits<double>::infinity();
   double part_ = 1.0;  // What the next step goes of the way to the target.
@@ -256,22 +254,16 @@ bool Run(const Problem& problem, std::deque<Search>& searches, SolveTable solve)
   }
 }
 
-// A place where a further search of a row may start: the j-th uncertain input is off by a distance.
-struct Probe {
-  size_t j;
-  double distance;
-};
-
-// Returns those on each side of each input, from near to far.
-std::vector<Probe> ProbesOf(const Row& row) {
-  std::vector<Probe> probes;
+// Calls `visit` with each place where a further search of a row may start: the j-th uncertain input is off by a
+// distance. The places on one side of one input come from near to far.
+template <typename Visit>
+void ForEachProbe(const Row& row, Visit visit) {
   for (size_t j = 0; j < row.uncertain().size() && row.count() > 0; ++j) {
     const double unit = std::min(row.uncertain()[j].sigma, row.uncertain()[j].size);
     for (const double side : {-1.0, 1.0}) {
-      for (const double distance : kProbes) probes.push_back({j, side * distance * unit});
+      for (const double distance : kProbes) visit(j, side * distance * unit, distance == kProbes.front());
     }
   }
-  return probes;
 }
 
 // Adds a search to `further` from the nearest probe on each side that surprises one of `searches`, and to `of` which
@@ -280,35 +272,32 @@ bool LookFurther(const Problem& problem, const std::deque<Search>& searches, Sol
                  std::deque<Search>& further, std::vector<size_t>& of) {
   Table fields(problem.batch.fields.size()), columns;
   for (const Search& one : searches) {
-    for (const auto& [j, distance] : ProbesOf(one.row())) {
+    ForEachProbe(one.row(), [&](size_t j, double distance, bool /*is_nearest*/) {
       AppendPlace(one.unknowns(), one.row().stated(), one.row().uncertain()[j].input, distance, fields);
-    }
+    });
   }
   if (fields.front().empty()) return true;
   if (!solve(fields, columns)) return false;
   size_t at = 0;
   for (size_t i = 0; i < searches.size(); ++i) {
     const Search& one = searches[i];
-    const std::vector<Probe> probes = ProbesOf(one.row());
-    bool has_started = false;
-    for (size_t p = 0; p < probes.size(); ++p) {
-      const auto& [j, distance] = probes[p];
-      if (p % kProbes.size() == 0) has_started = false;
+    bool has_started = false;  // On this side of the input.
+    ForEachProbe(one.row(), [&](size_t j, double distance, bool is_nearest) {
+      if (is_nearest) has_started = false;
       const VectorXd predicted = one.row().PredictedIn(columns, at++);
-      if (has_started || !one.IsSurprising(predicted, j, distance)) continue;
+      if (has_started || !one.IsSurprising(predicted, j, distance)) return;
       has_started = true;
       std::vector<double> start = one.row().stated();
       start[one.row().uncertain()[j].input] += distance;
       further.emplace_back(one.row(), one.unknowns(), std::move(start));
       of.push_back(i);
-    }
+    });
   }
   return true;
 }
 
-// Settles some searches from the stated inputs, and appends the rows.
-bool SettleBlock(const Problem& problem, std::deque<Search>& searches, SolveTable solve,
-                 std::vector<SettledRow>& rows) {
+// Settles some searches from the stated inputs.
+bool SettleBlock(const Problem& problem, std::deque<Search>& searches, SolveTable solve, TakeRow take) {
   std::deque<Search> further;
   std::vector<size_t> of;
   if (!Run(problem, searches, solve) || !LookFurther(problem, searches, solve, further, of)) return false;
@@ -318,13 +307,13 @@ bool SettleBlock(const Problem& problem, std::deque<Search>& searches, SolveTabl
   for (size_t i = 0; i < further.size(); ++i) {
     if (further[i].attained() < best[of[i]]->attained()) best[of[i]] = &further[i];
   }
-  for (const Search* const one : best) rows.push_back(one->best());
+  for (const Search* const one : best) take(one->best());
   return true;
 }
 
 }  // namespace
 
-bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, std::vector<SettledRow>& rows) {
+bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, TakeRow take) {
   std::vector<double> sizes;
   for (const std::vector<double>& column : problem.inputs) {
     double size = 0.0;
@@ -333,7 +322,6 @@ bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, s
   }
   std::deque<Row> of_problem;
   for (size_t row = 0; row < problem.rows; ++row) of_problem.emplace_back(problem, row, sizes);
-  rows.clear();
   // A block takes little memory, and the caller can stop after it.
   constexpr size_t kBlock = 1024;
   std::deque<Search> searches;
@@ -342,7 +330,7 @@ bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, s
       searches.emplace_back(of_problem[row], points[p], of_problem[row].stated());
       const bool is_last = p + 1 == points.size() && row + 1 == problem.rows;
       if (searches.size() < kBlock && !is_last) continue;
-      if (!SettleBlock(problem, searches, solve, rows)) return false;
+      if (!SettleBlock(problem, searches, solve, take)) return false;
       searches.clear();
     }
   }

@@ -39,12 +39,13 @@ struct SettledRow {
 using Table = std::vector<std::vector<double>>;
 // Sets the measured columns of rows that are given by their fields. Returns false once it is stopped.
 using SolveTable = absl::FunctionRef<bool(const Table& fields, Table& columns)>;
+using TakeRow = absl::FunctionRef<void(const SettledRow& row)>;
 
-// Settles all rows of the problem at each of some values of the unknowns, one after the other. A search starts from the
-// stated inputs, and from others nearby where f is not on its straight lines, as behind the threshold of another
-// course. J is that of central differences. If the best inputs lie on a corner of f, the residuals have the sum of
-// squares that belongs to the inputs found. Returns false once `solve` does.
-bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, std::vector<SettledRow>& rows);
+// Settles all rows of the problem at each of some values of the unknowns, and gives them to `take` one after the other.
+// A search starts from the stated inputs, and from others nearby where f is not on its straight lines, as behind the
+// threshold of another course. J is that of central differences. If the best inputs lie on a corner of f, the residuals
+// have the sum of squares that belongs to the inputs found. Returns false once `solve` does.
+bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, TakeRow take);
 
 }  // namespace ricochet::fit
 

@@ -202,11 +202,11 @@ void CheckRange(const std::string& field, const MultiContactScene& scene, const 
                 const Eigen::VectorXd& velocity, Check& check) {
   const bool is_stated = std::holds_alternative<ContactMatrix>(scene.system);
   const auto* const mechanism = std::get_if<Mechanism>(&scene.system);
-  const bool has_held = mechanism != nullptr && (!mechanism->kept_coordinates.empty() || mechanism->composite);
   const double most = is_stated ? 64.0 * static_cast<double>(reduction.w.rows()) * kEpsilon : 0x1p-20;
   const Eigen::VectorXd sizes = reduction.jacobian.cwiseAbs() * velocity.cwiseAbs();
   const double outside = DistanceFromRange(reduction.w, reduction.ContactVelocity(velocity), sizes);
   check.Require(outside <= most, [&] {
+    const bool has_held = mechanism != nullptr && HoldsCoordinates(*mechanism);
     const std::string share = std::isfinite(outside) ? absl::StrCat("a share of ", ShortestDecimal(outside)) : "a part";
     return MakeViolation(field, absl::StrCat("has ", share, " beside the range of W"),
                          absl::StrCat("lie in it, no impulse changes the rest",

@@ -28,19 +28,18 @@ static int DirectionsOf(const FreeBodies& free, const std::vector<MultiContactPo
 
 int DirectionsOf(const MultiContactScene& scene) {
   struct Finder {
-    const std::vector<MultiContactPoint>& points;
-    size_t contacts;
+    const std::vector<MultiContactPoint>& contacts;
     // Counts the lists of `each` in `numbers`.
     int Rows(size_t numbers, size_t each) const {
-      if (numbers == 2 * contacts * each) return 2;
-      return numbers == 3 * contacts * each ? 3 : 0;
+      if (numbers == 2 * contacts.size() * each) return 2;
+      return numbers == 3 * contacts.size() * each ? 3 : 0;
     }
     int operator()(std::monostate) const { return 0; }
     int operator()(const ContactMatrix& matrix) const { return Rows(matrix.velocity_m_s.size(), 1); }
-    int operator()(const FreeBodies& free) const { return DirectionsOf(free, points); }
+    int operator()(const FreeBodies& free) const { return DirectionsOf(free, contacts); }
     int operator()(const Mechanism& mechanism) const { return Rows(mechanism.jacobian.size(), mechanism.rates.size()); }
   };
-  return std::visit(Finder{scene.contacts, scene.contacts.size()}, scene.system);
+  return std::visit(Finder{scene.contacts}, scene.system);
 }
 
 std::vector<std::string> ContactOutputNames(size_t contacts, int directions) {

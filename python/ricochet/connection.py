@@ -14,6 +14,7 @@ _NAMES = "server deadline max_receive tls tls_ca tls_cert tls_key server_name to
 _DEFAULT_MAX_RECEIVE = "67108864"
 _UNITS_S = {"": 1.0, "s": 1.0, "ms": 1e-3, "m": 60.0, "h": 3600.0}
 _YEAR_S = 365.0 * 24 * 3600
+_EMPTY = "is empty: must have a value, or not be set"
 
 
 def resolve(given: Mapping[str, str | None]) -> dict[str, Any]:
@@ -27,7 +28,7 @@ def resolve(given: Mapping[str, str | None]) -> dict[str, Any]:
             refuse(name, f"= {shown(value)}: must be a text")
     for variable in (f"RICOCHET_{name.upper()}" for name in ("config", *_NAMES)):
         if os.environ.get(variable) == "":  # It may stand for a protection that is wanted.
-            refuse(variable, "is empty: must have a value, or not be set")
+            refuse(variable, _EMPTY)
     config = given.get("config") or os.environ.get("RICOCHET_CONFIG")
     lines = _read_config(config) if config else {}
     options: dict[str, Any] = {
@@ -69,8 +70,7 @@ def _read_config(path: str) -> dict[str, str]:
         raise InvalidRequest.of([Violation("config", f"= {path}: {name} {rule}") for name in unknown])
     empty = [name for name, value in lines.items() if value == ""]
     if empty:
-        rule = "is empty: must have a value, or not be set"
-        raise InvalidRequest.of([Violation("config", f"= {path}: {name} {rule}") for name in empty])
+        raise InvalidRequest.of([Violation("config", f"= {path}: {name} {_EMPTY}") for name in empty])
     return {
         name.replace("-", "_"): str(value).lower() if isinstance(value, bool) else str(value)
         for name, value in lines.items()

@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -61,7 +62,7 @@ absl::Status CheckEnvironment() {
     const std::string variable(*entry, std::strcspn(*entry, "="));
     if (!absl::StartsWith(variable, "RICOCHET_")) continue;
     if (std::find(known.begin(), known.end(), variable) != known.end()) {
-      if (*std::getenv(variable.c_str()) == '\0') return IsEmpty(variable);
+      if (std::strlen(*entry) <= variable.size() + 1) return IsEmpty(variable);
       continue;
     }
     const std::string meant = DidYouMean(variable, known);
