@@ -54,7 +54,11 @@ void CheckEstimate(const FitUnknown& unknown, const FitEstimate& estimate) {
   if (estimate.value < unknown.low.value_or(estimate.value) || estimate.value > unknown.high.value_or(estimate.value)) {
     Fail(absl::StrCat(estimate.path, " = ", estimate.value, " is not within its bounds"));
   }
-  if (estimate.sigma.has_value() != estimate.seen) Fail(absl::StrCat(estimate.path, ": sigma goes with seen"));
+  const bool is_between = estimate.low.kind == FitEndKind::kFound && estimate.high.kind == FitEndKind::kFound;
+  if (estimate.sigma.has_value() && !estimate.seen) Fail(absl::StrCat(estimate.path, " has a sigma, but is not seen"));
+  if (estimate.seen && !estimate.sigma.has_value() && !is_between) {
+    Fail(absl::StrCat(estimate.path, " is seen, but has neither a sigma nor both ends"));
+  }
   CheckEnd(estimate, estimate.low, -1.0);
   CheckEnd(estimate, estimate.high, 1.0);
   const auto rises = [](const FitProfilePoint& a, const FitProfilePoint& b) { return a.value < b.value; };
