@@ -32,11 +32,20 @@ constexpr size_t kMostUnknownsTried = 3;
 constexpr int32_t kMostStartsTried = 2;
 constexpr int32_t kMostIterationsTried = 20;
 
+// Impacts of larger numbers take wide arithmetic, a fit whose inputs have errors some million impacts.
+constexpr double kLargestUncertain = 1e6;
+
 // Sums of squares may differ by this through rounding.
 constexpr double kRounding = 1e-9;
 
+bool IsModerate(const FitInput& input) {
+  return input.sigma.empty() || std::all_of(input.values.begin(), input.values.end(),
+                                            [](double value) { return !(std::fabs(value) > kLargestUncertain); });
+}
+
 bool IsSmall(const FitRequest& request) {
-  return request.unknowns.size() <= kMostUnknownsTried && !TakesTime(request.scene) &&
+  return std::all_of(request.inputs.begin(), request.inputs.end(), IsModerate) &&
+         request.unknowns.size() <= kMostUnknownsTried && !TakesTime(request.scene) &&
          std::all_of(request.measured.begin(), request.measured.end(),
                      [](const FitMeasured& measured) { return measured.values.size() <= kMostRowsTried; });
 }
