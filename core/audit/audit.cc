@@ -35,7 +35,7 @@ using Moderate = HWY_NAMESPACE::DoubleDouble<double>;
 template <size_t N>
 struct Contact {
   std::array<Vector<N>, N> w;
-  Vector<N> before, after;
+  Vector<N> before, after, terms;
   double mu_static, uncertainty;
 };
 
@@ -43,6 +43,7 @@ Contact<2> MakeContact(const planar::Problem& in, const Observation& seen) {
   return {.w = {{{in.w.tt, in.w.tn}, {in.w.tn, in.w.nn}}},
           .before = {in.u0, in.v0},
           .after = {seen.u1[0], seen.v1},
+          .terms = {seen.u_terms[0], seen.v_terms},
           .mu_static = std::max(in.mu, in.mu_static),
           .uncertainty = seen.uncertainty};
 }
@@ -51,8 +52,15 @@ Contact<3> MakeContact(const spatial::Problem& in, const Observation& seen) {
   return {.w = {{{in.w11, in.w12, in.w13}, {in.w12, in.w22, in.w23}, {in.w13, in.w23, in.w33}}},
           .before = {in.u0[0], in.u0[1], in.v0},
           .after = {seen.u1[0], seen.u1[1], seen.v1},
+          .terms = {seen.u_terms[0], seen.u_terms[1], seen.v_terms},
           .mu_static = std::max(in.mu, in.mu_static),
           .uncertainty = seen.uncertainty};
+}
+
+// Returns what the velocities before and after are rounded in proportion to.
+template <size_t N>
+double SizeOf(const Contact<N>& contact, size_t i) {
+  return std::abs(contact.after[i]) + std::abs(contact.before[i]) + contact.terms[i];
 }
 
 // Decides whether the exact quantities can do without exponents of their own: det W is above 2^-50 times a product of
@@ -198,7 +206,7 @@ class UniqueImpulse {
     }
     impulse_ = Times(inverse_, change_);
     for (size_t i = 0; i < N; ++i) {
-      rounding_[i] = std::abs(contact.after[i]) + std::abs(contact.before[i]);
+      rounding_[i] = SizeOf(contact, i);
       for (size_t j = 0; j < N; ++j) rounding_[i] += std::abs(contact.w[i][j] * Rounded(impulse_[j]));
       rounding_[i] *= kRounding;
       error_[i] = contact.uncertainty + rounding_[i];
@@ -347,7 +355,7 @@ struct RangeDirection {
 Vector<2> Errors(const Contact<2>& contact) {
   Vector<2> error;
   for (size_t i = 0; i < 2; ++i) {
-    error[i] = contact.uncertainty + kRounding * (std::abs(contact.after[i]) + std::abs(contact.before[i]));
+    error[i] = contact.uncertainty + kRounding * SizeOf(contact, i);
   }
   return error;
 }
@@ -543,7 +551,7 @@ absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& proble
                                                   const PathPoint& start, absl::FunctionRef<bool()> stopped) {
   NearestPoint search(problem, contact, stopped);
   double error = contact.uncertainty;
-  for (size_t i = 0; i < 3; ++i) error += kRounding * (std::abs(contact.after[i]) + std::abs(contact.before[i]));
+  for (size_t i = 0; i < 3; ++i) error += kRounding * SizeOf(contact, i);
   PathPoint point = start;
   PathPoint moved_back = start;
   if (start.regime != Regime::kSeparating) {
@@ -590,6 +598,7 @@ AuditReport Audit(const pendulum::Problem& problem, const Observation& observati
   const Contact<2> contact{.w = {},
                            .before = {problem.b * problem.omega_minus, problem.a * problem.omega_minus},
                            .after = {observation.u1[0], observation.v1},
+                           .terms = {observation.u_terms[0], observation.v_terms},
                            .mu_static = std::max(problem.mu, problem.mu_static),
                            .uncertainty = observation.uncertainty};
   const double size = Hypot(problem.a, problem.b);

@@ -30,6 +30,10 @@ struct Observation {
   std::array<double, 2> u1 = {};  // m/s; a plane uses the first direction only.
   double v1 = 0.0;                // m/s
   double uncertainty = 0.0;       // m/s, >= 0
+  // The sizes of the terms that the velocities before and after are the sums of, by whose ulp they are rounded, m/s. 0
+  // if the velocities are themselves what was observed.
+  std::array<double, 2> u_terms = {};
+  double v_terms = 0.0;
 };
 
 using AnyProblem = std::variant<pendulum::Problem, planar::Problem, spatial::Problem>;

@@ -184,7 +184,9 @@ absl::StatusOr<AuditRows> AuditRows::Make(const AuditBatchRequest& request) {
 AuditRows::Impact::Impact(Scene its_scene, const SceneContact& contact, bool from_own_velocity)
     : scene(audit::WithoutRestitution(std::move(its_scene))),
       reduction(contact.reduction),
-      problem(audit::MakeProblem(scene, contact, from_own_velocity)) {}
+      problem(audit::MakeProblem(scene, contact, from_own_velocity)) {
+  if (from_own_velocity) audit::AddTermsBefore(scene, reduction, terms);
+}
 
 std::optional<AuditRows::Impact> AuditRows::ImpactAt(size_t row, audit::InputScene& own) const {
   std::optional<SceneContact> contact;
@@ -201,12 +203,12 @@ absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, audit::InputScene& own,
   }
   const Impact& impact = of_row.has_value() ? *of_row : *shared_;
   const audit::AnyProblem problem = ProblemAt(row, impact);
-  const audit::Observation seen = ObservationAt(row, impact.scene);
+  const audit::Observation seen = ObservationAt(row, impact);
   if (!IsValid(problem, seen)) return AuditReport{.regime = Regime::kInvalid};
   absl::StatusOr<AuditReport> report = audit::Audit(problem, seen, stopped);
   if (absl::IsOutOfRange(report.status())) return AuditReport{.regime = Regime::kInvalid};
   if (report.ok() && !columns_.rates_after.empty()) {
-    audit::CheckRates(impact.reduction, RatesAt(row), seen.uncertainty, *report);
+    audit::CheckRates(impact.reduction, RatesAt(row), seen, *report);
   }
   if (report.ok() && audit::OverflowIn(*report) != nullptr) return AuditReport{.regime = Regime::kInvalid};
   return report;
@@ -254,10 +256,12 @@ std::vector<double> AuditRows::RatesAt(size_t row) const {
   return rates;
 }
 
-audit::Observation AuditRows::ObservationAt(size_t row, const Scene& scene) const {
-  audit::Observation seen;
+audit::Observation AuditRows::ObservationAt(size_t row, const Impact& impact) const {
+  audit::Observation seen = impact.terms;
   if (!columns_.rates_after.empty()) {
-    const ContactVelocity velocity = ContactVelocityAt(scene, RatesAt(row));
+    const std::vector<double> rates = RatesAt(row);
+    const ContactVelocity velocity = ContactVelocityAt(impact.scene, rates);
+    audit::AddTerms(impact.scene, rates, seen);
     std::copy(velocity.tangential_m_s.begin(), velocity.tangential_m_s.end(), seen.u1.begin());
     seen.v1 = velocity.normal_m_s;
   } else {

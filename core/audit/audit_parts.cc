@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/contact/coefficients_at_speed.h"
+#include "core/contact/moved_contact.h"
 #include "core/plan/scene_problem.h"
 #include "core/scene/rigid.h"
 #include "core/scene/validate.h"
@@ -61,10 +62,19 @@ Scene WithoutRestitution(Scene scene) {
 
 namespace {
 
-// Returns how far one velocity of the system is from what the impulse makes of it, `expected`, as the speed of the
-// contact that changes it as much; 0 where `uncertainty` or rounding explains that.
+// Returns the largest speed of the contact along one direction, before and after, with the terms of both.
 template <typename Reduction>
-double DistanceOf(const Reduction& reduction, size_t place, double rate, double expected, double uncertainty,
+double SpeedOf(const Reduction& reduction, const Observation& seen) {
+  double speed = std::fabs(reduction.v0) + std::fabs(seen.v1) + seen.v_terms;
+  for (size_t a = 0; a < reduction.u0.size(); ++a)
+    speed = std::max(speed, std::fabs(reduction.u0[a]) + std::fabs(seen.u1[a]) + seen.u_terms[a]);
+  return speed;
+}
+
+// Returns how far one velocity of the system is from what the impulse makes of it, `expected`, as the speed of the
+// contact that changes it as much; 0 where the uncertainty or rounding explains that.
+template <typename Reduction>
+double DistanceOf(const Reduction& reduction, size_t place, double rate, double expected, const Observation& seen,
                   const std::array<double, Reduction::kDirections>& impulse) {
   constexpr double kRounding = 1e-9;
   double size = std::fabs(rate) + std::fabs(reduction.before[place]), by_speed = 0.0;
@@ -75,13 +85,25 @@ double DistanceOf(const Reduction& reduction, size_t place, double rate, double 
     if (mobility > 0.0) by_speed += std::fabs(response) / mobility;
   }
   const double miss = std::fabs(rate - expected);
-  if (!(miss > by_speed * uncertainty + kRounding * size)) return 0.0;
+  // Where an impulse cancels, what is left of it is rounding of speeds.
+  const double explained = by_speed * (seen.uncertainty + kRounding * SpeedOf(reduction, seen)) + kRounding * size;
+  if (!(miss > explained)) return 0.0;
   return by_speed > 0.0 ? miss / by_speed : miss;
 }
 
 }  // namespace
 
-void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, double uncertainty,
+void AddTerms(const Scene& scene, absl::Span<const double> rates, Observation& seen) {
+  const ContactVelocity size = SizeOfTerms(scene, rates);
+  for (size_t a = 0; a < size.tangential_m_s.size(); ++a) seen.u_terms[a] += size.tangential_m_s[a];
+  seen.v_terms += size.normal_m_s;
+}
+
+void AddTermsBefore(const Scene& scene, const AnyReduction& reduction, Observation& seen) {
+  std::visit([&](const auto& of) { AddTerms(scene, of.before, seen); }, reduction);
+}
+
+void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, const Observation& seen,
                 AuditReport& report) {
   if (report.unexplained || report.regime == Regime::kInvalid) return;
   std::visit(
@@ -94,7 +116,7 @@ void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, d
         impulse.back() = report.normal_impulse;
         const auto expected = of.After(tangential, report.normal_impulse);
         for (size_t i = 0; i < rates.size(); ++i) {
-          const double distance = DistanceOf(of, i, rates[i], expected[i], uncertainty, impulse);
+          const double distance = DistanceOf(of, i, rates[i], expected[i], seen, impulse);
           report.distance = std::max(report.distance, distance);
         }
       },

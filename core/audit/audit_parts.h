@@ -23,9 +23,15 @@ std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact
 // Removes the restitution and the impact law, which an audit does not use.
 Scene WithoutRestitution(Scene scene);
 
-// Calls a report unexplained if its impulse does not make these velocities of the system, to within rounding and what
-// `uncertainty` of the contact velocity changes in them.
-void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, double uncertainty, AuditReport& report);
+// Adds the terms of the velocity of the contact at these rates of the scene's system.
+void AddTerms(const Scene& scene, absl::Span<const double> rates, Observation& seen);
+// Adds those before the impact.
+void AddTermsBefore(const Scene& scene, const AnyReduction& reduction, Observation& seen);
+
+// Calls a report of what was seen unexplained if its impulse does not make these velocities of the system, to within
+// rounding and what the uncertainty of the contact velocity changes in them.
+void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, const Observation& seen,
+                AuditReport& report);
 
 // Makes the problem whose path an observation is held against: a pendulum's closed form where the scene has one and its
 // own velocity is meant, else the scene's contact.

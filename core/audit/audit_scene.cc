@@ -79,15 +79,16 @@ absl::StatusOr<AuditResponse> AuditScene(const AuditRequest& request, absl::Func
   const Components& tangential = seen.tangential_m_s;
   if (!FitsDoubles(contact->reduction) || !std::isfinite(seen.normal_m_s) || !std::isfinite(tangential[0]))
     return ContactOverflow();
-  const audit::Observation observation = {.u1 = {tangential[0], tangential.size() > 1 ? tangential[1] : 0.0},
-                                          .v1 = seen.normal_m_s,
-                                          .uncertainty = request.velocity_uncertainty_m_s};
+  audit::Observation observation = {.u1 = {tangential[0], tangential.size() > 1 ? tangential[1] : 0.0},
+                                    .v1 = seen.normal_m_s,
+                                    .uncertainty = request.velocity_uncertainty_m_s};
+  audit::AddTermsBefore(scene, contact->reduction, observation);
+  const auto* const rates = std::get_if<ObservedRates>(&request.observed);
+  if (rates != nullptr) audit::AddTerms(scene, rates->values, observation);
   absl::StatusOr<AuditReport> report =
       audit::Audit(audit::MakeProblem(scene, *contact, /*from_own_velocity=*/true), observation, stopped);
   if (!report.ok()) return report.status();
-  if (const auto* rates = std::get_if<ObservedRates>(&request.observed); rates != nullptr) {
-    audit::CheckRates(contact->reduction, rates->values, observation.uncertainty, *report);
-  }
+  if (rates != nullptr) audit::CheckRates(contact->reduction, rates->values, observation, *report);
   if (const char* path = audit::OverflowIn(*report); path != nullptr) return OutputOverflow(path);
   return AuditResponse{.report = *report, .contact_energy_j = ContactEnergy(contact->reduction), .engine = {}};
 }

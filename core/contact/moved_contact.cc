@@ -1,10 +1,14 @@
 #include "core/contact/moved_contact.h"
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <variant>
+#include <vector>
 
 #include "core/base/invariant.h"
 #include "core/contact/reduction.h"
+#include "ricochet/system.h"
 
 namespace ricochet {
 namespace {
@@ -41,6 +45,11 @@ struct Mover {
   }
 };
 
+void AddSize(absl::Span<const double> tangential, double normal, ContactVelocity& size) {
+  for (size_t a = 0; a < tangential.size(); ++a) size.tangential_m_s[a] += std::fabs(tangential[a]);
+  size.normal_m_s += std::fabs(normal);
+}
+
 }  // namespace
 
 ContactVelocity ContactVelocityAt(Scene scene, absl::Span<const double> rates) {
@@ -50,6 +59,30 @@ ContactVelocity ContactVelocityAt(Scene scene, absl::Span<const double> rates) {
         return ContactVelocity{{reduction.u0.begin(), reduction.u0.end()}, reduction.v0};
       },
       Reduce(scene));
+}
+
+ContactVelocity SizeOfTerms(Scene scene, absl::Span<const double> rates) {
+  const size_t tangential = TangentialDirections(scene.system);
+  ContactVelocity size = {.tangential_m_s = Components(tangential, 0.0)};
+  if (const auto& surface = scene.surface_velocity; surface.has_value()) {
+    AddSize(surface->tangential_m_s, surface->normal_m_s, size);
+    scene.surface_velocity.reset();
+  }
+  std::vector<double> one(rates.size());
+  const auto* const mechanism = std::get_if<Mechanism>(&scene.system);
+  for (size_t k = 0; k < rates.size(); ++k) {
+    if (mechanism != nullptr) {
+      const auto term = [&](size_t row) { return mechanism->jacobian[row * rates.size() + k] * rates[k]; };
+      const std::array<double, 2> along = {term(0), tangential > 1 ? term(1) : 0.0};
+      AddSize(absl::MakeSpan(along).first(tangential), term(tangential), size);
+      continue;
+    }
+    one[k] = rates[k];
+    const ContactVelocity term = ContactVelocityAt(scene, one);
+    AddSize(term.tangential_m_s, term.normal_m_s, size);
+    one[k] = 0.0;
+  }
+  return size;
 }
 
 }  // namespace ricochet

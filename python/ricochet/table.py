@@ -135,14 +135,17 @@ class Table:
         """
         import xarray
 
+        def attributes(name: str) -> dict[str, str]:
+            return {"units": unit_of(name)} if unit_of(name) else {}
+
         shape = [len(values) for values in self.axes.values()] if self.is_grid else [len(self)]
         dimensions = list(self.axes) if self.is_grid else ["row"]
         coordinates: dict[str, Any] = {
-            name: ([name] if self.is_grid else dimensions, values, {"units": unit_of(name)})
+            name: ([name] if self.is_grid else dimensions, values, attributes(name))
             for name, values in self.axes.items()
         }
         variables: dict[str, Any] = {
-            name.replace("/", "|"): (dimensions, values.reshape(shape), {"units": unit_of(name)})
+            name.replace("/", "|"): (dimensions, values.reshape(shape), attributes(name))
             for name, values in self.columns.items()
         }
         for name, codes in self.codes.items():

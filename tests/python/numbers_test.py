@@ -1,5 +1,6 @@
 """The numbers that arrive in Python, against references of 25 digits and closed forms."""
 
+import itertools
 import math
 import pickle
 import re
@@ -104,6 +105,78 @@ class Sweeps(unittest.TestCase):
                 self.assertAlmostEqual(float(point["coefficients.newton"]), math.sqrt((1 - mu / a) / (1 + mu / a)), 14)
         self.assertEqual(data["pendulum.a_m"].attrs["units"], "m")
         self.assertEqual(data["rates_after_rad_s[0]"].attrs["units"], "rad/s")
+
+    def test_an_audit_acquits_what_solve_answers(self):
+        # Without friction no impulse acts along t, and where the approach is what is left of larger velocities, so is
+        # that after the impact: rounding is all that an audit finds there. A rate that no impulse made is found.
+        random = np.random.default_rng(7)
+
+        def some(count):  # A third of the velocities is 0.
+            return [float(x) for x in random.uniform(-2, 2, count) * (random.uniform(size=count) > 1 / 3)]
+
+        def flat():
+            (velocity_t_m_s, rate_rad_s), offset_t_m = some(2), random.uniform(-0.5, 0.5)
+            return {
+                "mass_kg": random.uniform(0.3, 3), "inertia_com_kg_m2": random.uniform(0.01, 1),
+                "offset_t_m": offset_t_m, "offset_n_m": random.uniform(-1, -0.1), "velocity_t_m_s": velocity_t_m_s,
+                "velocity_n_m_s": -rate_rad_s * offset_t_m - 10 ** random.uniform(-8, 0), "rate_rad_s": rate_rad_s,
+            }  # fmt: skip
+
+        def in_space():
+            inertia = random.uniform(0.01, 1) * np.array([1.0, 0.1, 0.05, 1.2, -0.1, 0.9])
+            return {
+                "mass_kg": random.uniform(0.3, 3), "inertia_com_kg_m2": inertia, "offset_m": random.uniform(-0.5, 0.5, 3),
+                "linear_m_s": [*some(2), random.uniform(-2, 0)], "angular_rad_s": some(3),
+            }  # fmt: skip
+
+        def arm(directions):
+            root = random.normal(size=(4, 4))
+            mass = root @ root.T + 0.3 * np.eye(4)
+            return {"mass_matrix": (mass + mass.T) / 2, "jacobian": random.normal(size=(directions, 4)), "rates": some(4)}
+
+        systems = {
+            "flat": lambda: {"planar_body": flat()},
+            "two flat": lambda: {"body_pair": {"planar": {"body_1": flat(), "body_2": flat()}}},
+            "in space": lambda: {"spatial_body": in_space()},
+            "two in space": lambda: {"body_pair": {"spatial": {"body_1": in_space(), "body_2": in_space()}}},
+            "arm": lambda: {"mechanism": arm(2)},
+            "arm in space": lambda: {"mechanism": arm(3)},
+        }
+        for (name, system), friction, restitution, _ in itertools.product(
+            systems.items(), (0, 0.3), (0, 0.8), range(40)
+        ):
+            scene = {
+                **system(),
+                "friction": {"kinetic_coefficient": friction},
+                "restitution": {"energetic": restitution},
+            }
+            outcome = ricochet.solve(scene)
+            if "mechanism" in scene:
+                rates = list(outcome.rates_after)
+            else:
+                rates = [rate for body in outcome.bodies_after for rate in [*body.linear_m_s, *body.angular_rad_s]]
+            with self.subTest(name, friction=friction, restitution=restitution):
+                self.assertTrue(ricochet.audit(scene, rates_after=rates).report.admissible, scene)
+                rates[random.integers(len(rates))] += 1e-4
+                self.assertFalse(ricochet.audit(scene, rates_after=rates).report.admissible, scene)
+
+    def test_only_the_caller_knows_the_units_of_coordinates(self):
+        mechanism = {"mass_matrix": [2.0, 0.5, 0.5, 1.0], "jacobian": [1.0, 0.0, 0.0, 1.0], "rates": [1.0, -1.0]}
+        scene = {
+            "mechanism": mechanism,
+            "friction": {"kinetic_coefficient": 0.2},
+            "restitution": {"energetic": 0.5, "by_speed": {"power_law": {"alpha": 0.1, "exponent": 0.2}}},
+        }
+        alpha = "restitution.by_speed.power_law.alpha"
+        columns = ["rates_after[0]", "momentum_change[1]", "impulse.normal_total_n_s", "coefficients.newton"]
+        columns += [f"d({column})/d({alpha})" for column in columns]
+        data = ricochet.sweep(scene, {"mechanism.rates[0]": [0.5, 1.0], alpha: [0.1, 0.2]}, columns)
+        units = {"impulse.normal_total_n_s": "N s", "coefficients.newton": "1", alpha: "1/(m/s)^exponent"}
+        units[columns[6].replace("/", "|")] = "(N s)/(1/(m/s)^exponent)"
+        units[columns[7].replace("/", "|")] = "1/(1/(m/s)^exponent)"
+        for name in [*data.coords, *data.data_vars]:
+            if name not in ("regime", "status"):
+                self.assertEqual(data[name].attrs.get("units"), units.get(name), name)
 
     def test_flags_name_the_regimes(self):
         # At mu = a/b the pendulum is locked; without friction it rebounds frictionless.

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 
+#include "absl/algorithm/container.h"
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
@@ -51,6 +52,10 @@ constexpr std::array kUnitsByEnding = {
     Unit{"_j", "J"},
     Unit{"_n", "N"},
 };
+
+// The numbers of a mechanism in its generalised coordinates.
+constexpr std::array<absl::string_view, 5> kInCoordinates = {"jacobian", "mass_matrix", "momentum_change", "rates",
+                                                             "rates_after"};
 
 // Returns the first sentence of a comment, without its unit.
 std::string MeaningOf(const std::string& comment, const std::string& unit) {
@@ -169,6 +174,14 @@ std::string UnitOfPath(const std::string& path) {
   }
   const FieldInfo* const info = FindFieldInfo(path);
   return info == nullptr ? "" : info->unit;
+}
+
+bool IsInCoordinates(const std::string& path) {
+  if (const auto derivative = ReadDerivativeName(path))
+    return IsInCoordinates(derivative->of) || IsInCoordinates(derivative->by);
+  const std::string name = WithoutIndices(path);
+  const absl::string_view last = absl::string_view(name).substr(name.rfind('.') + 1);
+  return FindFieldInfo(path) != nullptr && absl::c_linear_search(kInCoordinates, last);
 }
 
 std::string WithoutUnit(const std::string& path) {

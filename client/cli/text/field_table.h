@@ -37,6 +37,10 @@ const FieldInfo* FindFieldInfo(absl::string_view path);
 // for a pure number and for an unknown path.
 std::string UnitOfPath(const std::string& path);
 
+// Returns true for a number of a mechanism in its generalised coordinates, whose units only the caller knows, and for a
+// derivative of it or by it.
+bool IsInCoordinates(const std::string& path);
+
 // Returns a path without the unit in its name: "pendulum.a" for "pendulum.a_m", "rates_after[0]" for
 // "rates_after_rad_s[0]".
 std::string WithoutUnit(const std::string& path);

@@ -20,6 +20,7 @@
 namespace ricochet::cli {
 namespace {
 
+using testing::ElementsAre;
 using testing::IsEmpty;
 
 std::vector<FieldInfo> AllFields() {
@@ -50,6 +51,26 @@ TEST(FieldTable, TellsApartUnitsThatAreSpelledAlike) {
     ASSERT_NE(FindFieldInfo(path), nullptr) << path;
     EXPECT_EQ(FindFieldInfo(path)->unit, unit) << path;
   }
+}
+
+// Beside pure numbers only those of a mechanism in its coordinates have no unit, as their comments say.
+TEST(FieldTable, TellsNumbersInCoordinatesFromPureOnes) {
+  std::set<std::string> in_coordinates;
+  for (const FieldInfo& info : AllFields()) {
+    if (!IsInCoordinates(info.path)) continue;
+    in_coordinates.insert(info.path);
+    EXPECT_EQ(info.unit, "") << info.path;
+  }
+  EXPECT_THAT(in_coordinates,
+              ElementsAre("errors.momentum_change", "errors.rates_after", "free_end.errors.momentum_change",
+                          "free_end.errors.rates_after", "free_end.rates_after", "mechanism.jacobian",
+                          "mechanism.mass_matrix", "mechanism.rates", "momentum_change", "rates_after"));
+  for (const FieldInfo& info : AllFields()) {
+    EXPECT_TRUE(!absl::StrContains(info.comment, "units of") || IsInCoordinates(info.path)) << info.comment;
+  }
+  EXPECT_TRUE(IsInCoordinates("d(rates_after[0])/d(friction.kinetic_coefficient)"));
+  EXPECT_TRUE(IsInCoordinates("d(coefficients.newton)/d(mechanism.rates[1])"));
+  EXPECT_FALSE(IsInCoordinates("d(coefficients.newton)/d(friction.kinetic_coefficient)"));
 }
 
 // The comments were written for readers of the protos, and so do not follow from the endings of names.
