@@ -138,11 +138,12 @@ class Fitter {
 
   // Sees what the data tell at the best fit.
   void Look() {
-    LinearResiduals residuals = {.values = {}, .slopes = {}, .sigmas = model_.Sigmas(best_.at)};
+    LinearResiduals residuals = {
+        .values = {}, .slopes = {}, .sigmas = model_.Sigmas(best_.at), .held_inputs = model_.HeldInputs(best_.at)};
     if (!model_.Residuals(best_.at, residuals.values) || !model_.Slopes(best_.at, all_free_, residuals.slopes)) {
       residuals.slopes.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
     }
-    residuals.values.resize(problem_.numbers.size(), 0.0);
+    residuals.values.resize(problem_.residuals(), 0.0);
     information_ = InformationOf(problem_, best_.at, residuals, [this] { return model_.Stops(); });
   }
 

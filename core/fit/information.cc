@@ -72,6 +72,9 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
       fall[k] -= weight * residual * slope;
     }
   }
+  // An input that cannot move is a measured number more.
+  const auto end_of_numbers = residuals.values.begin() + count;
+  std::for_each(end_of_numbers, residuals.values.end(), [&](double residual) { chi2 += residual * residual; });
   Eigen::VectorXd lengths = slopes.colwise().norm().transpose();
   Information information = {.chi2 = chi2, .is_seen = std::vector<bool>(problem.unknowns(), true)};
   information.row_shares.resize(problem.unknowns());
@@ -104,9 +107,9 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
     information.is_at_bound.push_back(information.is_seen[unknown] && (is_low || is_high));
   }
   // An unknown at a bound is no more free than one that is given.
-  information.degrees_of_freedom = count - static_cast<int64_t>(information.rank) +
+  information.degrees_of_freedom = count - static_cast<int64_t>(information.rank) + residuals.held_inputs +
                                    std::count(information.is_at_bound.begin(), information.is_at_bound.end(), true);
-  const Spread spread = SpreadOf(problem, residuals.values, information.degrees_of_freedom);
+  const Spread spread = SpreadOf(problem, {residuals.values.begin(), end_of_numbers}, information.degrees_of_freedom);
   information.rise = spread.rise;
   // J^T J of the weighted residuals is that of all residuals times the mean weight.
   const double variance = spread.variance * (weights / static_cast<double>(count));

@@ -32,6 +32,7 @@ struct Information {
 // The residuals at some values of the unknowns, their slopes, and the sigmas of the numbers (core/fit/model.h).
 struct LinearResiduals {
   std::vector<double> values, slopes, sigmas;
+  int64_t held_inputs = 0;
 };
 
 // `residuals` are those at the unknowns `at`. Once `stopped` returns true, what is returned means nothing.

@@ -68,13 +68,14 @@ double PossibleSigmas(size_t rows) {
 }
 
 void AuditRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
-  const double sigmas = PossibleSigmas(problem.rows);
+  const double possible = PossibleSigmas(problem.rows);
+  const std::vector<double> sigmas = model.Sigmas(best);
   for (size_t row = 0; row < problem.rows && !model.Stops(); ++row) {
     const Scene& scene = model.SceneOf(row, best);
-    const std::optional<MeasuredVelocity> velocity = VelocityOf(problem, row, scene);
+    const std::optional<MeasuredVelocity> velocity = VelocityOf(problem, sigmas, row, scene);
     if (!velocity.has_value()) continue;
     const absl::StatusOr<AuditResponse> audit = AuditScene(
-        {.scene = scene, .observed = velocity->velocity, .velocity_uncertainty_m_s = sigmas * velocity->sigma},
+        {.scene = scene, .observed = velocity->velocity, .velocity_uncertainty_m_s = possible * velocity->sigma},
         [&model] { return model.Stops(); });
     if (!audit.ok()) continue;
     for (int limit = 1; limit < kAuditLimitCount; ++limit) {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "core/fit/problem.h"
 #include "ricochet/outcome.h"
@@ -17,9 +18,10 @@ struct MeasuredVelocity {
   double sigma = 0.0;  // The larger one of its components.
 };
 
-// `scene` is that of the row. It is told by the velocity of the contact, or by those of all bodies or links in a plane,
+// `scene` is that of the row, `sigmas` are those of all measured numbers, less what the scene predicts. It is told by the velocity of the contact, or by those of all bodies or links in a plane,
 // or by all rates of a mechanism.
-std::optional<MeasuredVelocity> VelocityOf(const Problem& problem, size_t row, const Scene& scene);
+std::optional<MeasuredVelocity> VelocityOf(const Problem& problem, const std::vector<double>& sigmas, size_t row,
+                                           const Scene& scene);
 
 }  // namespace ricochet::fit
 

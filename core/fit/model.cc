@@ -110,6 +110,7 @@ bool Model::Residuals(const std::vector<double>& unknowns, std::vector<double>& 
   }
   if (!SettleHere(unknowns)) return false;
   for (const SettledRow& row : settled_) Append(row.residuals, residuals);
+  for (const SettledRow& row : settled_) residuals.insert(residuals.end(), row.held.begin(), row.held.end());
   return std::none_of(residuals.begin(), residuals.end(), [](double value) { return std::isnan(value); });
 }
 
@@ -127,6 +128,7 @@ bool Model::ResidualsAll(const Table& points, Table& residuals) {
   return Settle(points, [&](const SettledRow& row) {
     if (settled++ % problem_.rows == 0) residuals.emplace_back();
     Append(row.residuals, residuals.back());
+    residuals.back().insert(residuals.back().end(), row.held.begin(), row.held.end());
   });
 }
 
@@ -137,6 +139,13 @@ std::vector<double> Model::Sigmas(const std::vector<double>& unknowns) {
   sigmas.clear();
   for (const SettledRow& row : settled_) Append(row.sigmas, sigmas);
   return sigmas;
+}
+
+int64_t Model::HeldInputs(const std::vector<double>& unknowns) {
+  int64_t held = 0;
+  if (!problem_.has_uncertain_inputs() || !SettleHere(unknowns)) return held;
+  for (const SettledRow& row : settled_) held += static_cast<int64_t>(row.held_inputs);
+  return held;
 }
 
 bool Model::PredictRows(const std::vector<double>& unknowns, std::vector<Regime>& regimes,

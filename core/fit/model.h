@@ -19,7 +19,8 @@ namespace ricochet::fit {
 
 // Numbers and residuals stand in the order of Problem::numbers, slopes row by row with a column for each unknown. The
 // residuals of a row whose inputs have errors are independent combinations of those of its numbers
-// (core/fit/settled_row.h). Slopes, sides and scenes are those at the inputs that fit best.
+// (core/fit/settled_row.h); behind those of all rows stand those of inputs that cannot move, which no unknown changes.
+// Slopes, sides and scenes are those at the inputs that fit best.
 // Thread safety: one thread at a time.
 class Model {
  public:
@@ -40,6 +41,8 @@ class Model {
   bool PredictRows(const std::vector<double>& unknowns, std::vector<Regime>& regimes, std::vector<double>& predicted);
   // The standard deviation of each measured number less that predicted one.
   std::vector<double> Sigmas(const std::vector<double>& unknowns);
+  // How many inputs with errors lie at the end of what their rule allows, and would go beyond.
+  int64_t HeldInputs(const std::vector<double>& unknowns);
   // The rows whose outcome breaks a limit: energy appears, or friction works along the slip.
   std::vector<size_t> Inadmissible(const std::vector<double>& unknowns);
   // Returns the first measured number that has no prediction for the stated inputs, and why.

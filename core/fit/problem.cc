@@ -58,6 +58,10 @@ class Door {
     const bool has_fields = violations_.empty();
     for (size_t k = 0; k < request_.unknowns.size() && has_fields; ++k) SetUnknown(k);
     for (size_t i = 0; i < request_.inputs.size(); ++i) SetInput(i);
+    for (size_t i = 0; i < request_.inputs.size() && has_fields; ++i) {
+      Scene scene = request_.scene;
+      problem_.input_ranges.push_back(RangeOf(ResolveField(request_.inputs[i].path, scene)->rule()));
+    }
     SetNumbers();
     SetSearch();
     SetRegion();
@@ -261,6 +265,7 @@ class Door {
   void SetDerivatives() {
     Scene scene = problem_.batch.scene;
     for (const std::string& path : problem_.batch.fields) static_cast<void>(ResolveField(path, scene));
+    problem_.is_slow = TangentialDirections(scene.system) > 1 || TakesTime(scene);
     const char* const part = WhyNotExact(scene);
     if (part != nullptr) {
       problem_.why_differences = part;

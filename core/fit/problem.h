@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -30,8 +31,9 @@ struct Problem {
   std::vector<std::vector<double>> inputs;  // A column for each input, with a value for each row.
   // The standard deviation of the error of each of these, 0 for none; an empty column for an input without errors.
   std::vector<std::vector<double>> input_sigmas;
-  std::vector<Number> numbers;       // Row by row.
-  std::vector<size_t> first_number;  // That of each row, and behind the last row their count.
+  std::vector<std::pair<double, double>> input_ranges;  // In which each keeps its rule.
+  std::vector<Number> numbers;                          // Row by row.
+  std::vector<size_t> first_number;                     // That of each row, and behind the last row their count.
   // For each unknown; bounds may be infinite. A scale is > 0 and of the size of the unknown.
   std::vector<double> start, low, high, scale;
   std::vector<bool> is_angle;
@@ -41,12 +43,17 @@ struct Problem {
   int32_t max_iterations = kFitIterations;
   std::vector<size_t> region;   // The unknowns whose region is wanted: none or two.
   std::string why_differences;  // Why there are no exact derivatives; empty if there are.
+  bool is_slow = false;         // An impact may take milliseconds.
 
   size_t unknowns() const { return start.size(); }
   size_t columns() const { return batch.columns.size(); }
-  bool has_uncertain_inputs() const {
-    return std::any_of(input_sigmas.begin(), input_sigmas.end(), [](const auto& column) { return !column.empty(); });
+  bool has_uncertain_inputs() const { return uncertain_inputs() > 0; }
+  size_t uncertain_inputs() const {
+    return static_cast<size_t>(
+        std::count_if(input_sigmas.begin(), input_sigmas.end(), [](const auto& column) { return !column.empty(); }));
   }
+  // Those of all numbers, and behind them, row by row, those of uncertain inputs that cannot move.
+  size_t residuals() const { return numbers.size() + rows * uncertain_inputs(); }
   std::vector<std::string> unknown_paths() const {
     return {batch.fields.begin(), batch.fields.begin() + static_cast<std::ptrdiff_t>(unknowns())};
   }

@@ -39,7 +39,7 @@ Costed CostOf(const Problem& problem, double residual) {
 class Residuals : public Eigen::DenseFunctor<double> {
  public:
   Residuals(const std::vector<double>& start, const std::vector<size_t>& free, Model& model)
-      : DenseFunctor(static_cast<int>(free.size()), static_cast<int>(model.problem().numbers.size())),
+      : DenseFunctor(static_cast<int>(free.size()), static_cast<int>(model.problem().residuals())),
         model_(model),
         problem_(model.problem()),
         start_(start),
@@ -87,7 +87,7 @@ class Residuals : public Eigen::DenseFunctor<double> {
     for (Index j = 0; j < slopes.cols(); ++j) {
       const size_t k = Free(j);
       if (IsBeyond(x[j] * problem_.scale[k], k)) continue;
-      for (Index i = 0; i < slopes.rows(); ++i) {
+      for (Index i = 0; i < std::ssize(problem_.numbers); ++i) {
         slopes(i, j) = CostedAt(i).slope * of_residuals[static_cast<size_t>(i) * at.size() + k] * problem_.scale[k];
       }
     }

@@ -36,7 +36,15 @@ class Row {
   struct Uncertain {
     size_t input;
     double sigma;
-    double size;  // That of the input in any row.
+    double size;       // That of the input in any row.
+    double low, high;  // Between these the input keeps its rule.
+    size_t place;      // Among the uncertain inputs of the problem.
+
+    double Within(double value) const { return std::clamp(value, low, high); }
+    // True if the input lies at an end, beyond which the target is.
+    bool IsHeld(double value, double target) const {
+      return (value <= low && target < low) || (value >= high && target > high);
+    }
   };
 
   // `sizes` are those of the problem's inputs.
@@ -45,13 +53,16 @@ class Row {
     for (size_t i = 0; i < problem.inputs.size(); ++i) {
       stated_.push_back(problem.inputs[i][row]);
       const double sigma = problem.input_sigmas[i].empty() ? 0.0 : problem.input_sigmas[i][row];
-      if (sigma > 0.0) uncertain_.push_back({i, sigma, sizes[i] > 0.0 ? sizes[i] : sigma});
+      const auto [low, high] = problem.input_ranges[i];
+      if (sigma > 0.0) uncertain_.push_back({i, sigma, sizes[i] > 0.0 ? sizes[i] : sigma, low, high, places_});
+      if (!problem.input_sigmas[i].empty()) ++places_;
     }
   }
 
   const std::vector<double>& stated() const { return stated_; }
   const std::vector<Uncertain>& uncertain() const { return uncertain_; }
   Index count() const { return static_cast<Index>(count_); }
+  size_t places() const { return places_; }  // The uncertain inputs of the problem.
   bool has_robust_loss() const { return problem_.loss != FitLoss::kSquares; }
   const Number& NumberAt(Index i) const { return problem_.numbers[first_ + static_cast<size_t>(i)]; }
 
@@ -87,14 +98,19 @@ class Row {
   size_t first_, count_;
   std::vector<double> stated_;
   std::vector<Uncertain> uncertain_;
+  size_t places_ = 0;
 };
 
-// Adds a place whose input `moved` is off by `distance`.
-void AppendPlace(const std::vector<double>& unknowns, const std::vector<double>& inputs, size_t moved, double distance,
-                 Table& fields) {
+void AppendPlace(const std::vector<double>& unknowns, const std::vector<double>& inputs, Table& fields) {
   for (size_t k = 0; k < unknowns.size(); ++k) fields[k].push_back(unknowns[k]);
   for (size_t i = 0; i < inputs.size(); ++i) fields[unknowns.size() + i].push_back(inputs[i]);
-  fields[unknowns.size() + moved].back() += distance;
+}
+
+// Adds a place whose input `moved` has another value.
+void AppendPlace(const std::vector<double>& unknowns, const std::vector<double>& inputs, size_t moved, double value,
+                 Table& fields) {
+  AppendPlace(unknowns, inputs, fields);
+  fields[unknowns.size() + moved].back() = value;
 }
 
 // A search of a row for the inputs that fit best, at one value of the unknowns.
@@ -103,7 +119,14 @@ class Search {
   Search(const Row& row, const std::vector<double>& unknowns, std::vector<double> start)
       : row_(row), unknowns_(unknowns), inputs_(std::move(start)), is_done_(row.count() == 0) {
     const VectorXd none = VectorXd::Constant(row.count(), kNone);
-    best_ = {.inputs = inputs_, .predicted = none, .sigmas = none, .residuals = none, .whitening = {}};
+    best_ = {.inputs = inputs_,
+             .predicted = none,
+             .sigmas = none,
+             .residuals = none,
+             .whitening = {},
+             .held = {},
+             .held_inputs = 0};
+    best_.held.assign(row.places(), 0.0);
   }
 
   const Row& row() const { return row_; }
@@ -116,10 +139,11 @@ class Search {
 
   // Adds the fields of the places where the next step needs a prediction.
   void AppendPlaces(Table& fields) const {
-    AppendPlace(unknowns_, inputs_, 0, 0.0, fields);
+    AppendPlace(unknowns_, inputs_, fields);
     for (const Row::Uncertain& uncertain : row_.uncertain()) {
       const double step = StepOf(uncertain);
-      for (const double distance : {-step, step}) AppendPlace(unknowns_, inputs_, uncertain.input, distance, fields);
+      for (const double distance : {-step, step})
+        AppendPlace(unknowns_, inputs_, uncertain.input, inputs_[uncertain.input] + distance, fields);
     }
   }
 
@@ -140,8 +164,10 @@ class Search {
     if (!is_done_) return Step();
     // On a corner straight lines promise less than the inputs attain.
     const double promised = best_.residuals.squaredNorm();
+    double own = attained_;
+    for (const double shift : best_.held) own -= shift * shift;
     const bool is_on_corner = std::isfinite(attained_) && Moves(1.0);
-    if (is_on_corner && promised > 0.0) best_.residuals *= std::sqrt(attained_ / promised);
+    if (is_on_corner && promised > 0.0) best_.residuals *= std::sqrt(std::max(own, 0.0) / promised);
   }
 
   // True if the stated inputs have a prediction, with the j-th uncertain one off by `distance`, that is not on the
@@ -149,7 +175,7 @@ class Search {
   bool IsSurprising(const VectorXd& predicted, size_t j, double distance) const {
     if (!predicted.allFinite() || !std::isfinite(attained_)) return predicted.allFinite();
     for (Index i = 0; i < predicted.size(); ++i) {
-      const double on_line = best_.predicted[i] + distance * slopes_(i, static_cast<Index>(j));
+      const double on_line = at_stated_[i] + distance * slopes_(i, static_cast<Index>(j));
       if (!(std::fabs(predicted[i] - on_line) <= kSurprise * row_.NumberAt(i).sigma)) return true;
     }
     return false;
@@ -175,10 +201,36 @@ class Search {
     return slopes;
   }
 
-  // The present inputs are the best ones so far. Sets where the search goes from there, too.
+  // The present inputs are the best ones so far. Sets where the search goes from there, too. An input that would leave
+  // its range is held, one after the other.
   void SetBest(const VectorXd& predicted) {
+    best_.inputs = inputs_;
+    best_.held.assign(row_.places(), 0.0);
+    best_.held_inputs = 0;
+    const VectorXd shift = row_.ShiftFrom(inputs_);
+    at_stated_ = predicted + slopes_ * shift;
+    std::vector<bool> is_held(row_.uncertain().size(), false);
+    while (true) {
+      SetBest(predicted, is_held);
+      size_t j = 0;
+      const auto is_caught = [&](const Row::Uncertain& uncertain) {
+        return !is_held[j] && uncertain.IsHeld(inputs_[uncertain.input], target_[uncertain.input]);
+      };
+      while (j < is_held.size() && !is_caught(row_.uncertain()[j])) ++j;
+      if (j == is_held.size()) return;
+      is_held[j] = true;
+      ++best_.held_inputs;
+      best_.held[row_.uncertain()[j].place] = shift[static_cast<Index>(j)] / row_.uncertain()[j].sigma;
+    }
+  }
+
+  void SetBest(const VectorXd& predicted, const std::vector<bool>& is_held) {
     MatrixXd in_sigmas = slopes_;  // J diag(s_z)
-    for (Index j = 0; j < in_sigmas.cols(); ++j) in_sigmas.col(j) *= row_.uncertain()[static_cast<size_t>(j)].sigma;
+    MatrixXd free_slopes = slopes_;
+    for (Index j = 0; j < in_sigmas.cols(); ++j) {
+      in_sigmas.col(j) *= is_held[static_cast<size_t>(j)] ? 0.0 : row_.uncertain()[static_cast<size_t>(j)].sigma;
+      if (is_held[static_cast<size_t>(j)]) free_slopes.col(j).setZero();
+    }
     MatrixXd stacked = MatrixXd::Zero(row_.count() + in_sigmas.cols(), row_.count());
     VectorXd measured(row_.count());
     for (Index i = 0; i < row_.count(); ++i) {
@@ -186,8 +238,7 @@ class Search {
       stacked(i, i) = row_.NumberAt(i).sigma;
     }
     stacked.bottomRows(in_sigmas.cols()) = in_sigmas.transpose();
-    best_.inputs = inputs_;
-    best_.predicted = predicted + slopes_ * row_.ShiftFrom(inputs_);
+    best_.predicted = predicted + free_slopes * row_.ShiftFrom(inputs_);
     best_.sigmas = stacked.colwise().norm().transpose();
     best_.whitening = WhiteningOf(stacked);
     best_.residuals = best_.whitening * (measured - best_.predicted);
@@ -195,6 +246,7 @@ class Search {
     target_ = inputs_;
     for (Index j = 0; j < shift.size(); ++j) {
       const Row::Uncertain& uncertain = row_.uncertain()[static_cast<size_t>(j)];
+      if (is_held[static_cast<size_t>(j)]) continue;
       target_[uncertain.input] = row_.stated()[uncertain.input] + uncertain.sigma * shift[j];
     }
   }
@@ -209,26 +261,31 @@ class Search {
     return root.triangularView<Eigen::Lower>().solve(MatrixXd::Identity(a.cols(), a.cols()));
   }
 
-  double WayOf(size_t input) const { return target_[input] - best_.inputs[input]; }
+  double WayOf(const Row::Uncertain& uncertain) const {
+    return uncertain.Within(target_[uncertain.input]) - best_.inputs[uncertain.input];
+  }
 
   // True if this part of the way from the best inputs to the target is more than nothing.
   bool Moves(double part) const {
     return std::any_of(row_.uncertain().begin(), row_.uncertain().end(), [&](const Row::Uncertain& uncertain) {
-      return std::fabs(part * WayOf(uncertain.input)) > kSettled * uncertain.sigma;
+      return std::fabs(part * WayOf(uncertain)) > kSettled * uncertain.sigma;
     });
   }
 
   void Step() {
     inputs_ = best_.inputs;
     for (const Row::Uncertain& uncertain : row_.uncertain()) {
-      inputs_[uncertain.input] += part_ * WayOf(uncertain.input);
+      // The last step to an end goes to the end itself.
+      inputs_[uncertain.input] = uncertain.Within(part_ == 1.0 ? target_[uncertain.input]
+                                                               : inputs_[uncertain.input] + part_ * WayOf(uncertain));
     }
   }
 
   const Row& row_;
   const std::vector<double>& unknowns_;
   std::vector<double> inputs_, target_;
-  MatrixXd slopes_;  // J at the best inputs.
+  MatrixXd slopes_;     // J at the best inputs.
+  VectorXd at_stated_;  // What its straight lines predict for the stated inputs.
   SettledRow best_;
   double attained_ = std::numeric_limits<double>::infinity();
   double part_ = 1.0;  // What the next step goes of the way to the target.
@@ -254,14 +311,18 @@ bool Run(const Problem& problem, std::deque<Search>& searches, SolveTable solve)
   }
 }
 
-// Calls `visit` with each place where a further search of a row may start: the j-th uncertain input is off by a
-// distance. The places on one side of one input come from near to far.
+// Calls `visit` with each place where a further search of a row may start: the j-th uncertain input has another value
+// within its range. The places on one side of one input come from near to far.
 template <typename Visit>
 void ForEachProbe(const Row& row, Visit visit) {
   for (size_t j = 0; j < row.uncertain().size() && row.count() > 0; ++j) {
-    const double unit = std::min(row.uncertain()[j].sigma, row.uncertain()[j].size);
+    const Row::Uncertain& uncertain = row.uncertain()[j];
+    const double unit = std::min(uncertain.sigma, uncertain.size);
     for (const double side : {-1.0, 1.0}) {
-      for (const double distance : kProbes) visit(j, side * distance * unit, distance == kProbes.front());
+      for (const double distance : kProbes) {
+        const double value = uncertain.Within(row.stated()[uncertain.input] + side * distance * unit);
+        visit(j, value, distance == kProbes.front());
+      }
     }
   }
 }
@@ -272,8 +333,8 @@ bool LookFurther(const Problem& problem, const std::deque<Search>& searches, Sol
                  std::deque<Search>& further, std::vector<size_t>& of) {
   Table fields(problem.batch.fields.size()), columns;
   for (const Search& one : searches) {
-    ForEachProbe(one.row(), [&](size_t j, double distance, bool /*is_nearest*/) {
-      AppendPlace(one.unknowns(), one.row().stated(), one.row().uncertain()[j].input, distance, fields);
+    ForEachProbe(one.row(), [&](size_t j, double value, bool /*is_nearest*/) {
+      AppendPlace(one.unknowns(), one.row().stated(), one.row().uncertain()[j].input, value, fields);
     });
   }
   if (fields.front().empty()) return true;
@@ -282,13 +343,14 @@ bool LookFurther(const Problem& problem, const std::deque<Search>& searches, Sol
   for (size_t i = 0; i < searches.size(); ++i) {
     const Search& one = searches[i];
     bool has_started = false;  // On this side of the input.
-    ForEachProbe(one.row(), [&](size_t j, double distance, bool is_nearest) {
+    ForEachProbe(one.row(), [&](size_t j, double value, bool is_nearest) {
       if (is_nearest) has_started = false;
       const VectorXd predicted = one.row().PredictedIn(columns, at++);
-      if (has_started || !one.IsSurprising(predicted, j, distance)) return;
+      const size_t input = one.row().uncertain()[j].input;
+      if (has_started || !one.IsSurprising(predicted, j, value - one.row().stated()[input])) return;
       has_started = true;
       std::vector<double> start = one.row().stated();
-      start[one.row().uncertain()[j].input] += distance;
+      start[input] = value;
       further.emplace_back(one.row(), one.unknowns(), std::move(start));
       of.push_back(i);
     });

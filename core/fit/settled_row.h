@@ -33,6 +33,10 @@ struct SettledRow {
   // R: the inverse of a triangular root of C, or, for a robust loss, of the symmetric one, which does not depend on the
   // order of the numbers.
   Eigen::MatrixXd whitening;
+  // For each uncertain input of the problem its shift in sigmas, if it lies at the end of what its rule allows and
+  // would go beyond; else 0. The objective counts its square, too.
+  std::vector<double> held;
+  size_t held_inputs = 0;  // How many lie so. That of one whose stated value is the end has no shift.
 };
 
 // A column for each field of the problem's batch, or for each of its columns.
@@ -43,7 +47,8 @@ using TakeRow = absl::FunctionRef<void(const SettledRow& row)>;
 
 // Settles all rows of the problem at each of some values of the unknowns, and gives them to `take` one after the other.
 // A search starts from the stated inputs, and from others nearby where f is not on its straight lines, as behind the
-// threshold of another course. J is that of central differences. If the best inputs lie on a corner of f, the residuals
+// threshold of another course. J is that of central differences, and 0 for an input that is held at the end of its
+// range. If the best inputs lie on a corner of f, the residuals
 // have the sum of squares that belongs to the inputs found. Returns false once `solve` does.
 bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, TakeRow take);
 

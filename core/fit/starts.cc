@@ -12,8 +12,7 @@
 namespace ricochet::fit {
 namespace {
 
-// A model without exact derivatives, whose rows may take milliseconds, is looked at in this many times fewer places, of
-// which at most kMostSlow are returned.
+// A slow model is looked at in this many times fewer places, of which at most kMostSlow are returned.
 constexpr int kFewer = 16;
 constexpr size_t kMostSlow = 2;
 // Places are solved in groups that have at most this many rows together, or in groups of one.
@@ -72,7 +71,7 @@ std::vector<double> StartOf(const Problem& problem, int number) {
 std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, const std::vector<bool>& is_free,
                                             int count, size_t most, Model& model) {
   const Problem& problem = model.problem();
-  if (!problem.why_differences.empty()) {
+  if (problem.is_slow) {
     count /= kFewer;
     most = std::min(most, kMostSlow);
   }

@@ -636,6 +636,44 @@ TEST(FitTest, ARegionOnABoundGoesAlongItToBothSides) {
   for (const FitRegionPoint& point : response.region) EXPECT_LE(point.y, 1.0);
 }
 
+// Six throws of a disk on a tangential spring, made with mu = 0.648, e = 0.87 and a ratio of 0.446 and rounded: sigmas of
+// 0.01 and 0.5. There are minima far above the least one, of which a search may find either.
+TEST(FitTest, AFitWithComplianceDoesNotDependOnTheOrderOfUnknowns) {
+  FitRequest request = {
+      .scene = {.system = PlanarBody{.mass_kg = 0.1,
+                                     .inertia_com_kg_m2 = 4e-5,
+                                     .offset_t_m = 0.008,
+                                     .offset_n_m = -0.03,
+                                     .velocity_n_m_s = -2.0},
+                .friction = {.kinetic_coefficient = 0.3},
+                .restitution = EnergeticCoefficient{0.7},
+                .compliance = Compliance{.tangential_ratio_squared = 1.0}},
+      .unknowns = {{.path = "friction.kinetic_coefficient"},
+                   {.path = "restitution.energetic"},
+                   {.path = "compliance.tangential_ratio_squared", .low = 0.2, .high = 5.0}},
+      .inputs = {{"planar_body.velocity_t_m_s", {-0.3737, -2.6942, -0.2578, 1.0642, 0.2092, -0.2354}},
+                 {"planar_body.velocity_n_m_s", {-1.4559, -1.5076, -1.6989, -1.9137, -2.1071, -2.6152}},
+                 {"planar_body.rate_rad_s", {-16.8843, 8.0362, 31.9064, 24.5285, -10.0968, -29.1422}}},
+      .measured = {{"bodies_after[0].linear_m_s[0]", {-0.7347, -2.0273, -0.9552, 0.0330, -0.5587, -0.9865}, {0.01}},
+                   {"bodies_after[0].linear_m_s[1]", {1.0314, 0.2800, 1.0993, 1.7868, 1.7665, 2.0828}, {0.01}},
+                   {"bodies_after[0].angular_rad_s[0]", {6.4350, 93.9230, 37.4574, 20.0065, 9.3933, 7.9237}, {0.5}}}};
+  FitUnknown truth[] = {{.path = request.unknowns[0].path, .start = 0.648},
+                        {.path = request.unknowns[1].path, .start = 0.87},
+                        {.path = request.unknowns[2].path, .start = 0.446, .low = 0.2, .high = 5.0}};
+  FitRequest from_truth = request;
+  from_truth.unknowns.assign(std::begin(truth), std::end(truth));
+  const absl::StatusOr<FitResponse> least = Fit(from_truth, Never);
+  ASSERT_TRUE(least.ok()) << least.status();
+  EXPECT_FALSE(least->refused);
+  for (const std::vector<size_t>& order : std::vector<std::vector<size_t>>{{0, 1, 2}, {1, 0, 2}, {2, 1, 0}}) {
+    FitRequest permuted = request;
+    for (size_t k = 0; k < order.size(); ++k) permuted.unknowns[k] = request.unknowns[order[k]];
+    const absl::StatusOr<FitResponse> response = Fit(permuted, Never);
+    ASSERT_TRUE(response.ok()) << response.status();
+    EXPECT_NEAR(response->chi2, least->chi2, 1e-3);
+  }
+}
+
 TEST(FitTest, ADeadlineEndsIt) {
   const CallOptions late = {.deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(2)};
   FitRequest request = Noiseless(CompliantCase());

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "tests/core/fit/fit_cases.h"
@@ -296,6 +298,88 @@ TEST(UncertainInputsTest, AnExactNumberBesideAnUncertainInputTellsTheInput) {
   }
   const double ratio = py / pp;
   EXPECT_NEAR(response->unknowns[0].value, ratio / (1.0 - ratio), 1e-6);
+}
+
+// v+ = -e (v - s) with an uncertain e <= 1 for each row: its square is least over e, which is 1 where more would be.
+double SumOverRestitutions(double s, const std::vector<double>& e, const std::vector<double>& before,
+                           const std::vector<double>& after) {
+  constexpr double kSigmaOfE = 0.05, kSigma = 0.01;
+  double sum = 0.0;
+  for (size_t row = 0; row < e.size(); ++row) {
+    const double approach = (before[row] - s) / kSigma, seen = after[row] / kSigma;
+    const double weight = 1.0 / (kSigmaOfE * kSigmaOfE);
+    const double best = std::min(1.0, (e[row] * weight - approach * seen) / (weight + approach * approach));
+    sum += std::pow(seen + best * approach, 2.0) + std::pow((e[row] - best) / kSigmaOfE, 2.0);
+  }
+  return sum;
+}
+
+TEST(UncertainInputsTest, AnInputAtTheEndOfItsRuleStaysThere) {
+  const std::vector<double> e = {0.99, 0.98, 1.0}, before = {-1.0, -2.0, -3.0}, after = {1.1, 2.2, 3.25};
+  const FitRequest request = {.scene = {.system = Contact(), .restitution = EnergeticCoefficient{0.6}},
+                              .unknowns = {{.path = "surface_velocity.normal_m_s", .start = 0.0}},
+                              .inputs = {{"restitution.energetic", e, {0.05}}, {kBefore, before}},
+                              .measured = {{kAfter, after, {0.01}}}};
+  const absl::StatusOr<FitResponse> response = Fit(request, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  const auto sum = [&](double s) { return SumOverRestitutions(s, e, before, after); };
+  constexpr double kStep = 1e-5;
+  const double best = Bisected(0.2, 0.3, [&](double s) { return sum(s + kStep) < sum(s - kStep); });
+  const double curvature = (sum(best + kStep) - 2.0 * sum(best) + sum(best - kStep)) / (kStep * kStep);
+  const FitEstimate& speed = response->unknowns[0];
+  EXPECT_NEAR(speed.value, best, 1e-3 * std::sqrt(2.0 / curvature));
+  EXPECT_NEAR(*speed.sigma, std::sqrt(2.0 / curvature), 0.01 * *speed.sigma);
+  EXPECT_NEAR(response->chi2, sum(best), 1e-6 * sum(best));
+  EXPECT_EQ(response->degrees_of_freedom, 3);  // Three numbers, an unknown, and an input that is held.
+  EXPECT_GT(speed.row_shares[2], 0.9);
+  const double rise = sum(best) + kFitRiseOfInterval;
+  EXPECT_NEAR(*speed.low.value, Bisected(0.0, best, [&](double s) { return sum(s) > rise; }), 1e-3 * *speed.sigma);
+  EXPECT_NEAR(*speed.high.value, Bisected(best, 0.5, [&](double s) { return sum(s) < rise; }), 1e-3 * *speed.sigma);
+}
+
+// Friction only slows the slip of 2 m/s, so that the inputs that fit best are 0. The search finds that end beyond the
+// threshold of sticking, too.
+TEST(UncertainInputsTest, AnInputWithoutAnyEffectLeftTellsNothingOfOthers) {
+  FitRequest request = {.scene = {.system = Contact(), .restitution = NewtonCoefficient{0.6}},
+                        .unknowns = {{.path = "restitution.newton"}},
+                        .inputs = {{"friction.kinetic_coefficient", {0.01, 0.02, 0.0}, {0.05}}},
+                        .measured = {{kSlipAfter, {2.1, 2.12, 2.05}, {0.02}}}};
+  std::get<PlanarContact>(request.scene.system).tangential_m_s = 2.0;
+  const absl::StatusOr<FitResponse> response = Fit(request, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_NEAR(response->chi2, 5 * 5 + 6 * 6 + 2.5 * 2.5 + 0.2 * 0.2 + 0.4 * 0.4, 1e-6);
+  EXPECT_EQ(response->degrees_of_freedom, 6);
+  EXPECT_EQ(response->outliers.size(), 3U);
+  EXPECT_NEAR(response->rows[1].residuals[0], 6.0, 1e-6);
+  const FitEstimate& newton = response->unknowns[0];
+  EXPECT_FALSE(newton.seen);
+  EXPECT_EQ(newton.low.kind, FitEndKind::kNotSeen);
+  EXPECT_EQ(newton.high.kind, FitEndKind::kNotSeen);
+}
+
+// Errors of 0.1 of the approach let e seem to be above 1; the interval says so, and no single row proves more.
+TEST(UncertainInputsTest, TheAuditOfARowAllowsForTheErrorsOfItsInputs) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  int refused = 0;
+  for (int set = 0; set < 100; ++set) {
+    std::vector<double> before, after, slips;
+    for (int row = 0; row < 5; ++row) {
+      const double approach = -std::uniform_real_distribution<double>(0.8, 1.2)(random);
+      before.push_back(approach + 0.1 * normal(random));
+      after.push_back(-0.95 * approach + 0.005 * normal(random));
+      slips.push_back(5.0 + 0.005 * normal(random));
+    }
+    const absl::StatusOr<FitResponse> response =
+        Fit({.scene = {.system = Contact(), .restitution = NewtonCoefficient{0.6}},
+             .unknowns = {{.path = "restitution.newton"}},
+             .inputs = {{kBefore, before, {0.1}}},
+             .measured = {{kSlipAfter, slips, {0.005}}, {kAfter, after, {0.005}}}},
+            Never);
+    ASSERT_TRUE(response.ok()) << response.status();
+    refused += response->refused ? 1 : 0;
+  }
+  EXPECT_LE(refused, 1);  // One in a thousand is refused by chance.
 }
 
 TEST(UncertainInputsTest, ASigmaOfZeroIsNone) {
