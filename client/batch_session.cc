@@ -16,6 +16,8 @@ namespace ricochet {
 namespace {
 
 constexpr size_t kPieceBytes = size_t{1} << 20;
+// The first message of a call has the setup beside its columns.
+constexpr int64_t kBytesOfSetup = 4096;
 
 absl::Status OtherEngine(const EngineInfo& before, const EngineInfo& now) {
   return absl::FailedPreconditionError(absl::StrCat("the batches began with engine ", before.version, " (",
@@ -28,24 +30,25 @@ size_t ColumnsOf(const BatchSetup& setup) { return std::max({setup.fields.size()
 
 }  // namespace
 
-size_t RowsOfAPiece(const BatchSetup& setup) {
-  return std::max(kPieceBytes / (ColumnsOf(setup) * sizeof(double)), size_t{1});
+size_t RowsOfAPiece(const BatchSetup& setup, int64_t max_receive_bytes) {
+  // An answer has a few bytes of each row beside its columns, and a summary.
+  const auto received = static_cast<size_t>(std::max<int64_t>(max_receive_bytes - kBytesOfSetup, 0));
+  const size_t by_answer = received / ((setup.columns.size() + 1) * sizeof(double));
+  return std::max(std::min(kPieceBytes / (ColumnsOf(setup) * sizeof(double)), by_answer), size_t{1});
 }
 
 size_t RowsOfAPiece(const BatchSetup& setup, const Limits& limits) {
   const auto columns = static_cast<int64_t>(ColumnsOf(setup));
-  // The first message of a call has the setup beside its columns.
-  constexpr int64_t kBytesOfSetup = 4096;
   const int64_t by_bytes = (limits.max_request_bytes - kBytesOfSetup) / static_cast<int64_t>(sizeof(double)) / columns;
   return static_cast<size_t>(std::max<int64_t>(std::min(limits.max_batch_numbers / columns, by_bytes), 1));
 }
 
 RemoteBatches::RemoteBatches(const BatchSetup& setup, Start start, AskMostRows ask_most_rows, PreferredServer& servers,
-                             const RetryPolicy& policy, CallOptions options)
+                             const RetryPolicy& policy, int64_t max_receive_bytes, CallOptions options)
     : setup_(ToProto(setup)),
       fields_(setup.fields.size()),
       columns_(setup.columns.size()),
-      piece_(RowsOfAPiece(setup)),
+      piece_(RowsOfAPiece(setup, max_receive_bytes)),
       start_(std::move(start)),
       ask_most_rows_(std::move(ask_most_rows)),
       servers_(servers),

@@ -27,9 +27,9 @@
 
 namespace ricochet {
 
-// The most rows of one message: so many that its columns, in or out, take a mebibyte. Servers take more, but smaller
-// pieces keep the memory of both sides small.
-size_t RowsOfAPiece(const BatchSetup& setup);
+// The most rows of one message, at least one: so many that its columns, in or out, take a mebibyte, and that the client
+// receives their answer. Servers take more, but smaller pieces keep the memory of both sides small.
+size_t RowsOfAPiece(const BatchSetup& setup, int64_t max_receive_bytes);
 // The most rows of one message to a server that has these limits, at least one.
 size_t RowsOfAPiece(const BatchSetup& setup, const Limits& limits);
 
@@ -44,7 +44,7 @@ class RemoteBatches final : public BatchSession::Worker {
 
   // `servers` must outlive this object.
   RemoteBatches(const BatchSetup& setup, Start start, AskMostRows ask_most_rows, PreferredServer& servers,
-                const RetryPolicy& policy, CallOptions options);
+                const RetryPolicy& policy, int64_t max_receive_bytes, CallOptions options);
   ~RemoteBatches() override;
 
   absl::StatusOr<BatchSummary> Solve(const BatchRows& rows) override;

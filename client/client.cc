@@ -241,14 +241,16 @@ absl::StatusOr<BatchSession> Client::DoOpenBatches(const BatchSetup& setup, cons
     if (!info.ok()) return info.status();
     return RowsOfAPiece(setup, info->limits);
   };
+  const ClientOptions& own = connection_->options;
   return BatchSession(std::make_unique<RemoteBatches>(setup, std::move(start), std::move(ask_most_rows),
-                                                      connection_->preferred, connection_->options.retry, options));
+                                                      connection_->preferred, own.retry, own.max_receive_bytes,
+                                                      options));
 }
 
 absl::StatusOr<BatchResponse> Client::DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
                                                    const CallOptions& options) const {
   const size_t count = RowCount(rows);
-  if (count > RowsOfAPiece(setup)) return SolveInPieces(setup, rows, options);
+  if (count > RowsOfAPiece(setup, connection_->options.max_receive_bytes)) return SolveInPieces(setup, rows, options);
   if (absl::Status misfit = CheckRows(rows, setup.fields.size(), setup.columns.size()); !misfit.ok()) return misfit;
   v1::SolveBatchRequest request;
   *request.mutable_setup() = ToProto(setup);

@@ -83,6 +83,13 @@ Demand DemandOf(const SolveRequest& request) {
   return request.force_intervals > 0 ? WithNumbers(demand, {kForces}) : demand;
 }
 
+std::vector<Violation> CheckSolve(const SolveRequest& request) {
+  std::vector<Violation> violations = CheckDemand(request.demand);
+  CheckIntervals("force_intervals", request.force_intervals, violations);
+  CheckIntervals("history_intervals", request.history_intervals, violations);
+  return violations;
+}
+
 std::vector<Violation> CheckSolve(const SolveRequest& request, std::optional<SceneContact>& contact) {
   std::vector<Violation> violations = CheckDemand(request.scene, contact, request.demand);
   // Most requests ask for none of these.

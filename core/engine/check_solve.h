@@ -16,6 +16,9 @@ namespace ricochet {
 // The demand of the request. A history of forces requires an impact that takes time.
 Demand DemandOf(const SolveRequest& request);
 
+// Lists what is wrong with the request whatever its scene, which may break its own rules.
+std::vector<Violation> CheckSolve(const SolveRequest& request);
+
 // Lists every rule that the request breaks; its scene must be valid. `contact` is as for CheckDemand.
 std::vector<Violation> CheckSolve(const SolveRequest& request, std::optional<SceneContact>& contact);
 

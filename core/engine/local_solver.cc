@@ -102,8 +102,11 @@ absl::Status Certify(const Request& request, const CertifyScene& certify, absl::
 // Answers in place, because an outcome is large.
 absl::Status Answer(const SolveRequest& request, CallControl& control, SolveResponse& response) {
   std::optional<SceneContact> contact;
-  const std::vector<Violation> of_scene = Validate(request.scene, RestitutionIs::kRequired, contact);
-  if (!of_scene.empty()) return InvalidRequest(of_scene);
+  std::vector<Violation> of_scene = Validate(request.scene, RestitutionIs::kRequired, contact);
+  if (!of_scene.empty()) {
+    for (Violation& violation : CheckSolve(request)) of_scene.push_back(std::move(violation));
+    return InvalidRequest(of_scene);
+  }
   const std::vector<Violation> of_request = CheckSolve(request, contact);
   if (!of_request.empty()) return InvalidRequest(of_request);
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
@@ -171,7 +174,10 @@ absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, con
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   std::optional<SceneContact> contact;
   std::vector<Violation> violations = Validate(request.scene, RestitutionIs::kRequired, contact);
-  if (violations.empty()) violations = CheckDemand(request.scene, contact, request.demand);
+  for (Violation& violation :
+       violations.empty() ? CheckDemand(request.scene, contact, request.demand) : CheckDemand(request.demand)) {
+    violations.push_back(std::move(violation));
+  }
   if (!violations.empty()) return InvalidRequest(violations);
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
   absl::StatusOr<ricochet::Plan> plan = PlanOf(request.scene, contact, ToDemand(request.demand));

@@ -16,7 +16,8 @@ namespace ricochet::fit {
 std::vector<double> StartOf(const Problem& problem, int number);
 
 // Looks at `count` places around `centre`, the denser the nearer to it, and returns the `most` that fit best, the best
-// first; of a slow model at fewer, and fewer of them. They lie within the bounds, or without two of them from a sixteenth to sixteen times the centre. Unknowns that are not free stay.
+// first; of a slow model at fewer, and fewer of them. They lie within the bounds, or without two of them from a
+// sixteenth to sixteen times the centre. Unknowns that are not free stay.
 std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, const std::vector<bool>& is_free,
                                             int count, size_t most, Model& model);
 

@@ -153,12 +153,15 @@ EffectSet WithImplied(EffectSet excluded, bool in_space) {
   return all;
 }
 
+void CheckTolerance(double relative_tolerance, std::vector<Violation>& violations) {
+  if (relative_tolerance >= 0.0 && relative_tolerance <= kLargestTolerance) return;
+  violations.push_back(
+      MakeViolation("relative_tolerance", relative_tolerance, absl::StrCat("be in [0, ", kLargestTolerance, "]")));
+}
+
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
   std::vector<Violation> violations;
-  if (!(demand.relative_tolerance >= 0.0 && demand.relative_tolerance <= kLargestTolerance)) {
-    violations.push_back(MakeViolation("relative_tolerance", demand.relative_tolerance,
-                                       absl::StrCat("be in [0, ", kLargestTolerance, "]")));
-  }
+  CheckTolerance(demand.relative_tolerance, violations);
   if (!std::holds_alternative<std::monostate>(scene.impact_law)) {
     const auto refuse = [&](Effect effect, std::string path) {
       violations.push_back(Refuse(std::move(path), effect, "not be here: an impact law states its own effects"));

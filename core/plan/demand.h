@@ -44,6 +44,9 @@ EffectSet WithImplied(EffectSet excluded, bool in_space);
 // "relative_tolerance", "required[i]" and "excluded[i]", where i counts the effects of a set in order of their numbers.
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
+// Checks the tolerance, whatever the scene.
+void CheckTolerance(double relative_tolerance, std::vector<Violation>& violations);
+
 // Lists the excluded effects without which no model solves a valid scene: a contact whose slip cannot be a straight
 // line, a pendulum beyond first order. The list is empty if a model does, or if doubles cannot represent the contact.
 std::vector<Violation> CheckSolvableWithout(const Scene& scene, std::optional<SceneContact>& contact,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 
@@ -34,6 +35,18 @@ void CheckList(const std::vector<Effect>& effects, const char* field, std::vecto
   }
 }
 
+// A set counts its effects in order of their numbers; the violation shall count those of the list.
+void NameByList(const std::vector<Effect>& list, const char* field, Violation& violation) {
+  std::vector<Effect> in_order = list;
+  std::sort(in_order.begin(), in_order.end());
+  for (size_t i = 0; i < in_order.size(); ++i) {
+    if (violation.field != absl::StrCat(field, "[", i, "]")) continue;
+    const auto place = std::find(list.begin(), list.end(), in_order[i]) - list.begin();
+    violation.field = absl::StrCat(field, "[", place, "]");
+    return;
+  }
+}
+
 }  // namespace
 
 Demand ToDemand(const DemandFields& fields) {
@@ -42,15 +55,24 @@ Demand ToDemand(const DemandFields& fields) {
   return demand;
 }
 
+std::vector<Violation> CheckDemand(const DemandFields& fields) {
+  std::vector<Violation> violations;
+  if (fields.relative_tolerance.has_value()) CheckTolerance(*fields.relative_tolerance, violations);
+  CheckList(fields.required, "required", violations);
+  CheckList(fields.excluded, "excluded", violations);
+  return violations;
+}
+
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact,
                                    const DemandFields& fields) {
-  if (!fields.required.empty() || !fields.excluded.empty()) {
-    std::vector<Violation> violations;
-    CheckList(fields.required, "required", violations);
-    CheckList(fields.excluded, "excluded", violations);
-    if (!violations.empty()) return violations;
+  std::vector<Violation> violations = CheckDemand(fields);
+  if (!violations.empty()) return violations;
+  violations = CheckDemand(scene, contact, ToDemand(fields));
+  for (Violation& violation : violations) {
+    for (const auto& [list, field] : {std::pair(&fields.required, "required"), std::pair(&fields.excluded, "excluded")})
+      NameByList(*list, field, violation);
   }
-  return CheckDemand(scene, contact, ToDemand(fields));
+  return violations;
 }
 
 }  // namespace ricochet

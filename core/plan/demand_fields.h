@@ -16,6 +16,9 @@ namespace ricochet {
 
 Demand ToDemand(const DemandFields& fields);
 
+// Lists what is wrong with the demand whatever the scene, which may break its own rules.
+std::vector<Violation> CheckDemand(const DemandFields& fields);
+
 // Lists every reason why the demand cannot be met for a valid scene, with paths such as "relative_tolerance" and
 // "required[1]".
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact,

@@ -25,9 +25,12 @@ std::vector<Violation> CheckRange(const SweepRequest& request) {
   std::vector<Violation> violations;
   if (end < 0 || end > points) {
     violations.push_back({"end_index", absl::StrCat("= ", end, ": must be in [0, ", points, "], the grid's points")});
-  } else if (request.first_index < 0 || request.first_index > end) {
+  }
+  const int64_t most = violations.empty() ? end : points;
+  if (request.first_index < 0 || request.first_index > most) {
+    const char* const what = violations.empty() ? "end_index = " : "";
     violations.push_back(
-        {"first_index", absl::StrCat("= ", request.first_index, ": must be in [0, end_index = ", end, "]")});
+        {"first_index", absl::StrCat("= ", request.first_index, ": must be in [0, ", what, most, "]")});
   }
   return violations;
 }
@@ -41,7 +44,10 @@ std::vector<Violation> CheckScene(const DrivenScene& driven, const DemandFields&
                                   std::optional<SceneContact>& contact) {
   const auto stays = [&driven](const Violation& violation) { return !driven.CanBeCured(violation); };
   std::vector<Violation> violations = Validate(driven.scene(), RestitutionIs::kRequired, contact, stays);
-  if (!violations.empty()) return violations;
+  if (!violations.empty()) {
+    Append(CheckDemand(demand), violations);
+    return violations;
+  }
   violations = CheckDemand(driven.scene(), contact, demand);
   std::erase_if(violations, std::not_fn(stays));
   return violations;

@@ -15,8 +15,13 @@ FitRequest FromProto(const v1::FitRequest& proto);
 v1::FitResponse ToProto(const FitResponse& response);
 FitResponse FromProto(const v1::FitResponse& proto);
 
+// A number without a name is handed on, so that the fit refuses it: that of no loss asks for least squares.
 template <>
-struct EnumPair<FitLoss> : SameNumbers<v1::FitLoss, v1::FitLoss_IsValid> {};
+struct EnumPair<FitLoss> {
+  using Other = v1::FitLoss;
+
+  static int Known(int number) { return number; }
+};
 template <>
 struct EnumPair<FitEndKind> : SameNumbers<v1::FitEnd::Kind, v1::FitEnd::Kind_IsValid> {};
 template <>

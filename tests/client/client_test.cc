@@ -161,6 +161,35 @@ TEST(Client, AnAnswerThatIsTooLargeNamesTheLimit) {
   EXPECT_EQ(solve(200'000), absl::OkStatus());
 }
 
+// A batch is asked in pieces whose answers the client takes.
+TEST(Client, ABatchIsAskedInPiecesThatItReceives) {
+  const ServerProcess server;
+  const Client client = Client::Connect({.target = server.address(), .max_receive_bytes = 100'000}).value();
+  constexpr size_t kRows = 200'000;
+  std::vector<double> friction(kRows), newton(kRows);
+  for (size_t row = 0; row < kRows; ++row) friction[row] = 1e-6 * static_cast<double>(row);
+  const BatchSetup setup = {
+      .scene = AnyScene(), .fields = {"friction.kinetic_coefficient"}, .columns = {"coefficients.newton"}};
+  const auto batch = client.SolveBatch(setup, {.inputs = {friction}, .outputs = {absl::MakeSpan(newton)}});
+  ASSERT_TRUE(batch.ok()) << batch.status();
+  std::vector<double> here(kRows);
+  ASSERT_TRUE(LocalSolver().SolveBatch(setup, {.inputs = {friction}, .outputs = {absl::MakeSpan(here)}}).ok());
+  EXPECT_TRUE(newton == here);
+}
+
+// An enum without a name is refused as the embedded solver does.
+TEST(Client, AnUnknownLossIsRefused) {
+  const ServerProcess server;
+  const Client client = Client::Connect({.target = server.address()}).value();
+  const FitRequest request = {.scene = AnyScene(),
+                              .unknowns = {{.path = "friction.kinetic_coefficient"}},
+                              .measured = {{"coefficients.newton", {0.5}, {0.1}}},
+                              .loss = static_cast<FitLoss>(9)};
+  EXPECT_EQ(ViolationsOf(client.Fit(request).status()), ViolationsOf(LocalSolver().Fit(request).status()));
+  EXPECT_THAT(ViolationsOf(client.Fit(request).status()),
+              ElementsAre(Violation{"loss", "= 9: must be a loss that is named"}));
+}
+
 // The largest answer that a server with its default limits gives, and the largest message that a client takes.
 TEST(Client, TakesTheLongestHistory) {
   const ServerProcess server;

@@ -31,12 +31,22 @@ constexpr size_t kMostRowsTried = 8;
 constexpr size_t kMostUnknownsTried = 3;
 constexpr int32_t kMostStartsTried = 2;
 constexpr int32_t kMostIterationsTried = 20;
+// A search for an end without bound goes to extreme numbers, whose impacts take wide arithmetic.
+constexpr int32_t kMostIterationsTriedIfUncertain = 2;
 
 // Impacts of larger numbers take wide arithmetic, a fit whose inputs have errors some million impacts.
 constexpr double kLargestUncertain = 1e6;
 
 // Sums of squares may differ by this through rounding.
 constexpr double kRounding = 1e-9;
+
+// A search that is better by less has found the same fit.
+constexpr double kAsGood = 1e-6;
+
+bool IsExact(const FitRequest& request) {
+  return std::none_of(request.inputs.begin(), request.inputs.end(),
+                      [](const FitInput& input) { return !input.sigma.empty(); });
+}
 
 bool IsModerate(const FitInput& input) {
   return input.sigma.empty() || std::all_of(input.values.begin(), input.values.end(),
@@ -77,17 +87,15 @@ void CheckEstimate(const FitUnknown& unknown, const FitEstimate& estimate) {
 }
 
 void CheckSums(const FitRequest& request, const FitResponse& fit) {
-  const bool is_exact = std::none_of(request.inputs.begin(), request.inputs.end(),
-                                     [](const auto& input) { return !input.sigma.empty(); });
   double chi2 = 0.0;
   for (const FitRow& row : fit.rows) {
     for (const double residual : row.residuals) chi2 += std::isnan(residual) ? 0.0 : residual * residual;
   }
   // Errors of inputs make residuals count together.
-  if (is_exact && std::fabs(chi2 - fit.chi2) > kRounding * std::max(chi2, 1.0))
+  if (IsExact(request) && std::fabs(chi2 - fit.chi2) > kRounding * std::max(chi2, 1.0))
     Fail(absl::StrCat("chi2 ", fit.chi2, ", ", chi2));
   for (const FitStart& start : fit.starts) {
-    if (start.objective < fit.objective) Fail("a search is better than the best fit");
+    if (start.objective < fit.objective - kAsGood) Fail("a search is better than the best fit");
   }
   for (const double number : fit.correlation) {
     if (std::fabs(number) > 1.0 + kRounding) Fail(absl::StrCat("a correlation of ", number));
@@ -98,9 +106,8 @@ void Run(const v1::FitRequest& proto) {
   FitRequest request = FromProto(proto);
   if (!IsSmall(request)) return;
   if (request.starts.value_or(1) > kMostStartsTried) request.starts = kMostStartsTried;
-  if (request.max_iterations.value_or(kFitIterations) > kMostIterationsTried) {
-    request.max_iterations = kMostIterationsTried;
-  }
+  const int32_t most = IsExact(request) ? kMostIterationsTried : kMostIterationsTriedIfUncertain;
+  request.max_iterations = std::min(request.max_iterations.value_or(kFitIterations), most);
   const absl::StatusOr<FitResponse> fit = LocalSolver().Fit(request);
   if (!fit.ok()) {
     if (absl::IsOutOfRange(fit.status())) return;  // No start has an outcome, or a number exceeds the largest double.

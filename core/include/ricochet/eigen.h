@@ -46,7 +46,8 @@ inline absl::StatusOr<Mechanism> MechanismFrom(const Eigen::Ref<const Eigen::Mat
   };
   require(mass_matrix.rows() == n && mass_matrix.cols() == n, "mechanism.mass_matrix", mass_matrix,
           absl::StrCat(n, " x ", n));
-  require(jacobian.cols() == n, "mechanism.jacobian", jacobian, absl::StrCat("2 x ", n, " or 3 x ", n));
+  require((jacobian.rows() == 2 || jacobian.rows() == 3) && jacobian.cols() == n, "mechanism.jacobian", jacobian,
+          absl::StrCat("2 x ", n, " or 3 x ", n));
   if (!violations.empty()) return InvalidRequest(violations);
   return Mechanism{.mass_matrix = row_by_row(mass_matrix),
                    .jacobian = row_by_row(jacobian),

@@ -3,7 +3,7 @@
 //
 // The structs mirror ricochet.v1.Outcome field by field. Units are SI units and radians. Tangential quantities are
 // along t, normal ones along n (ricochet/system.h); impulses act on the striking body; contact velocities are relative
-// to the surface. `energy_change_j` is E+ - E-, negative for a loss.
+// to the surface. `energy_change_j` is E+ - E- of the system and a moving surface together, negative for a loss.
 
 #ifndef RICOCHET_OUTCOME_H_
 #define RICOCHET_OUTCOME_H_
@@ -252,9 +252,9 @@ struct Outcome {
   ContactVelocity contact_velocity_after;
   Impulse impulse;
   WorkLedger work;
-  double energy_change_j = 0.0;
-  std::vector<Event> timeline;  // In order of normal impulse, at most 8192; empty if it separates.
-  std::vector<State> history;   // One for each SolveRequest.history_at_n_s, in that order.
+  double energy_change_j = 0.0;  // By the contact alone: what holds a moving coordinate does work of its own.
+  std::vector<Event> timeline;   // In order of normal impulse, at most 8192; empty if it separates.
+  std::vector<State> history;    // One for each SolveRequest.history_at_n_s, in that order.
   absl::InlinedVector<BodyVelocity, 2> bodies_after;  // Body 1 first. Empty for systems other than free bodies.
   EffectiveCoefficients effective;
   Accuracy accuracy;

@@ -42,7 +42,7 @@ struct PlanarBody {
 // A free rigid body in space, everything in the right-handed contact frame (t1, t2, n).
 struct SpatialBody {
   double mass_kg = 0.0;                        // > 0
-  std::vector<double> inertia_com_kg_m2 = {};  // 6 entries 11 12 13 22 23 33 of a positive definite matrix.
+  std::vector<double> inertia_com_kg_m2 = {};  // 11 12 13 22 23 33, > 0; each moment <= the sum of the others.
   std::vector<double> offset_m = {};       // 3 components of the vector from the centre of mass to the contact point.
   std::vector<double> linear_m_s = {};     // 3 components of the velocity of the centre of mass.
   std::vector<double> angular_rad_s = {};  // 3 components of the angular velocity.

@@ -163,6 +163,47 @@ TEST(LocalSolverTest, ABadSceneListsItsViolations) {
                                                 Violation{"friction.kinetic_coefficient", "= -1: must be >= 0"}));
 }
 
+TEST(LocalSolverTest, ABadSceneDoesNotHideWhatElseIsWrong) {
+  Scene scene = ExactScene();
+  PendulumOf(scene).a_m = 0.0;
+  const DemandFields demand = {.relative_tolerance = 5.0};
+  const auto fields = [](const absl::Status& status) {
+    std::vector<std::string> names;
+    for (const Violation& violation : ViolationsOf(status)) names.push_back(violation.field);
+    return names;
+  };
+  EXPECT_THAT(fields(LocalSolver()
+                         .Solve({.scene = scene, .demand = demand, .history_intervals = -1, .force_intervals = -2})
+                         .status()),
+              ElementsAre("pendulum.a_m", "relative_tolerance", "force_intervals", "history_intervals"));
+  EXPECT_THAT(fields(LocalSolver().Plan({.scene = scene, .demand = demand}).status()),
+              ElementsAre("pendulum.a_m", "relative_tolerance"));
+  const SweepRequest sweep = {.grid = {.scene = scene, .axes = {{"pendulum.b_m", Linspace{-2.0, 2.0, 3}}}},
+                              .columns = {"coefficients.newton"},
+                              .demand = demand,
+                              .first_index = -1,
+                              .end_index = 9};
+  for (const absl::StatusOr<SweepChunk>& chunk : LocalSolver().Sweep(sweep)) {
+    EXPECT_THAT(fields(chunk.status()), ElementsAre("pendulum.a_m", "relative_tolerance", "end_index", "first_index"));
+  }
+}
+
+// The place is that in the list of the request, in whatever order it names the effects.
+TEST(LocalSolverTest, AnEffectIsNamedByItsPlaceInTheList) {
+  const auto fields = [](const DemandFields& demand) {
+    std::vector<std::string> names;
+    for (const Violation& violation :
+         ViolationsOf(LocalSolver().Solve({.scene = ExactScene(), .demand = demand}).status())) {
+      names.push_back(violation.field);
+    }
+    return names;
+  };
+  EXPECT_THAT(fields({.required = {Effect::kFiniteDuration, Effect::kFriction}}), ElementsAre("required[0]"));
+  EXPECT_THAT(fields({.required = {Effect::kFriction, Effect::kFiniteDuration}}), ElementsAre("required[1]"));
+  EXPECT_THAT(fields({.required = {Effect::kFriction}, .excluded = {Effect::kHigherOrder, Effect::kFriction}}),
+              testing::Contains("required[0]"));
+}
+
 TEST(LocalSolverTest, AnOutputAboveTheLargestDoubleIsNamed) {
   Scene scene = ExactScene();
   PendulumOf(scene).inertia_kg_m2 = 1e308;

@@ -636,8 +636,8 @@ TEST(FitTest, ARegionOnABoundGoesAlongItToBothSides) {
   for (const FitRegionPoint& point : response.region) EXPECT_LE(point.y, 1.0);
 }
 
-// Six throws of a disk on a tangential spring, made with mu = 0.648, e = 0.87 and a ratio of 0.446 and rounded: sigmas of
-// 0.01 and 0.5. There are minima far above the least one, of which a search may find either.
+// Six throws of a disk on a tangential spring, made with mu = 0.648, e = 0.87 and a ratio of 0.446, with errors of 0.01
+// and 0.5. There are minima far above the least one, which a search from the start finds.
 TEST(FitTest, AFitWithComplianceDoesNotDependOnTheOrderOfUnknowns) {
   FitRequest request = {
       .scene = {.system = PlanarBody{.mass_kg = 0.1,

@@ -277,7 +277,7 @@ TEST(UncertainInputsTest, ACornerOfThePredictionEndsTheSearchNearTheBestInputs) 
     return std::pow((-0.05 - after) / 0.1, 2) + std::pow((u - 1.0) / 0.2, 2);
   };
   double least = sum(1.0);
-  for (double u = 0.0; u < 2.0; u += 1e-4) least = std::min(least, sum(u));
+  for (int i = 0; i < 20'000; ++i) least = std::min(least, sum(1e-4 * i));
   const double first = (1.875 - (3.0 - 3.0 * mu * 1.5)) / 0.01;
   EXPECT_NEAR(response->chi2, first * first + least, 1e-3 * least);
 }

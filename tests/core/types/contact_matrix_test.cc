@@ -67,6 +67,9 @@ TEST(EigenTest, ShapesThatDoNotFitAreNamed) {
   const absl::Status transposed = MechanismFrom(mass, jacobian.transpose(), rates).status();
   EXPECT_EQ(ViolationsOf(transposed).at(0),
             (Violation{"mechanism.jacobian", "is 4 x 2: must be 2 x 4 or 3 x 4 for 4 rates"}));
+  const absl::Status tall = MechanismFrom(mass, Eigen::MatrixXd::Ones(5, 4), rates).status();
+  EXPECT_EQ(ViolationsOf(tall).at(0),
+            (Violation{"mechanism.jacobian", "is 5 x 4: must be 2 x 4 or 3 x 4 for 4 rates"}));
   // As many entries as a matrix that fits.
   const absl::Status flat = MechanismFrom(mass.reshaped(2, 8), jacobian.reshaped(4, 2), rates).status();
   ASSERT_EQ(ViolationsOf(flat).size(), 2);
