@@ -56,6 +56,16 @@ absl::Status ExplainConnection(const absl::Status& status) {
 
 absl::Status ExplainFailure(const absl::Status& status) {
   const absl::string_view message = status.message();
+  if (absl::IsUnauthenticated(status)) {
+    return {status.code(), absl::StrCat(message,
+                                        ": the server takes a token (security.token, --token-file, RICOCHET_TOKEN) or "
+                                        "a certificate of this client (security.tls_cert, --tls-cert)")};
+  }
+  if (absl::IsPermissionDenied(status)) {
+    return {status.code(), absl::StrCat(message,
+                                        ": the scopes of this client's token or certificate, which the server's "
+                                        "operator gives, do not have it")};
+  }
   if (absl::IsUnavailable(status) && absl::StartsWith(message, "failed to connect to all addresses")) {
     return ExplainConnection(status);
   }

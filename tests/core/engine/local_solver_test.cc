@@ -173,16 +173,16 @@ TEST(LocalSolverTest, ABadSceneDoesNotHideWhatElseIsWrong) {
     return names;
   };
   EXPECT_THAT(fields(LocalSolver()
-                         .Solve({.scene = scene, .demand = demand, .history_intervals = -1, .force_intervals = -2})
+                         .Solve({.scene = scene, .history_intervals = -1, .demand = demand, .force_intervals = -2})
                          .status()),
               ElementsAre("pendulum.a_m", "relative_tolerance", "force_intervals", "history_intervals"));
   EXPECT_THAT(fields(LocalSolver().Plan({.scene = scene, .demand = demand}).status()),
               ElementsAre("pendulum.a_m", "relative_tolerance"));
   const SweepRequest sweep = {.grid = {.scene = scene, .axes = {{"pendulum.b_m", Linspace{-2.0, 2.0, 3}}}},
                               .columns = {"coefficients.newton"},
-                              .demand = demand,
                               .first_index = -1,
-                              .end_index = 9};
+                              .end_index = 9,
+                              .demand = demand};
   for (const absl::StatusOr<SweepChunk>& chunk : LocalSolver().Sweep(sweep)) {
     EXPECT_THAT(fields(chunk.status()), ElementsAre("pendulum.a_m", "relative_tolerance", "end_index", "first_index"));
   }
