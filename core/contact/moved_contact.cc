@@ -1,12 +1,13 @@
 #include "core/contact/moved_contact.h"
 
-#include <array>
+#include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
 #include <variant>
 #include <vector>
 
 #include "core/base/invariant.h"
+#include "core/contact/linkage_matrices.h"
 #include "core/contact/reduction.h"
 #include "ricochet/system.h"
 
@@ -45,10 +46,51 @@ struct Mover {
   }
 };
 
-void AddSize(absl::Span<const double> tangential, double normal, ContactVelocity& size) {
-  for (size_t a = 0; a < tangential.size(); ++a) size.tangential_m_s[a] += std::fabs(tangential[a]);
-  size.normal_m_s += std::fabs(normal);
-}
+// Adds the magnitudes of the terms of the contact's velocity, what each rate of a system adds to it.
+struct TermSizes {
+  absl::Span<const double> rates;
+  ContactVelocity& size;
+
+  void operator()(const Pendulum& pendulum) const {
+    size.tangential_m_s[0] += std::fabs(pendulum.b_m * rates[0]);
+    size.normal_m_s += std::fabs(pendulum.a_m * rates[0]);
+  }
+  void operator()(const Linkage& linkage) const {
+    const Eigen::MatrixXd jacobian = TransposedJacobian(linkage);
+    for (Eigen::Index k = 0; k < jacobian.rows(); ++k) {
+      const double rate = rates[static_cast<size_t>(k)];
+      size.tangential_m_s[0] += std::fabs(jacobian(k, 0) * rate);
+      size.normal_m_s += std::fabs(jacobian(k, 1) * rate);
+    }
+  }
+  void operator()(const Mechanism& mechanism) const {
+    for (size_t i = 0; i < mechanism.jacobian.size(); ++i) {
+      const size_t row = i / rates.size();
+      double& along = row < size.tangential_m_s.size() ? size.tangential_m_s[row] : size.normal_m_s;
+      along += std::fabs(mechanism.jacobian[i] * rates[i % rates.size()]);
+    }
+  }
+  void operator()(const PlanarBody& body) const {
+    size.tangential_m_s[0] += std::fabs(rates[0]) + std::fabs(rates[2] * body.offset_n_m);
+    size.normal_m_s += std::fabs(rates[1]) + std::fabs(rates[2] * body.offset_t_m);
+  }
+  void operator()(const SpatialBody& body) const {
+    const auto turned = [&](size_t i, size_t j) { return std::fabs(rates[3 + i] * body.offset_m[j]); };
+    size.tangential_m_s[0] += std::fabs(rates[0]) + turned(1, 2) + turned(2, 1);
+    size.tangential_m_s[1] += std::fabs(rates[1]) + turned(2, 0) + turned(0, 2);
+    size.normal_m_s += std::fabs(rates[2]) + turned(0, 1) + turned(1, 0);
+  }
+  void operator()(const BodyPair& pair) const { std::visit(*this, pair.bodies); }
+  template <typename Bodies>
+  requires requires(Bodies& bodies) { bodies.body_1; }
+  void operator()(const Bodies& bodies) const {
+    const size_t half = rates.size() / 2;
+    TermSizes{rates.first(half), size}(bodies.body_1);
+    TermSizes{rates.subspan(half), size}(bodies.body_2);
+  }
+  template <typename Contact>
+  void operator()(const Contact& /*without_rates*/) const {}
+};
 
 }  // namespace
 
@@ -61,27 +103,14 @@ ContactVelocity ContactVelocityAt(Scene scene, absl::Span<const double> rates) {
       Reduce(scene));
 }
 
-ContactVelocity SizeOfTerms(Scene scene, absl::Span<const double> rates) {
-  const size_t tangential = TangentialDirections(scene.system);
-  ContactVelocity size = {.tangential_m_s = Components(tangential, 0.0)};
+ContactVelocity SizeOfTerms(const Scene& scene, absl::Span<const double> rates) {
+  ContactVelocity size = {.tangential_m_s = Components(TangentialDirections(scene.system), 0.0)};
   if (const auto& surface = scene.surface_velocity; surface.has_value()) {
-    AddSize(surface->tangential_m_s, surface->normal_m_s, size);
-    scene.surface_velocity.reset();
+    const std::vector<double>& tangential = surface->tangential_m_s;
+    for (size_t a = 0; a < tangential.size(); ++a) size.tangential_m_s[a] += std::fabs(tangential[a]);
+    size.normal_m_s += std::fabs(surface->normal_m_s);
   }
-  std::vector<double> one(rates.size());
-  const auto* const mechanism = std::get_if<Mechanism>(&scene.system);
-  for (size_t k = 0; k < rates.size(); ++k) {
-    if (mechanism != nullptr) {
-      const auto term = [&](size_t row) { return mechanism->jacobian[row * rates.size() + k] * rates[k]; };
-      const std::array<double, 2> along = {term(0), tangential > 1 ? term(1) : 0.0};
-      AddSize(absl::MakeSpan(along).first(tangential), term(tangential), size);
-      continue;
-    }
-    one[k] = rates[k];
-    const ContactVelocity term = ContactVelocityAt(scene, one);
-    AddSize(term.tangential_m_s, term.normal_m_s, size);
-    one[k] = 0.0;
-  }
+  std::visit(TermSizes{rates, size}, scene.system);
   return size;
 }
 

@@ -15,7 +15,7 @@ ContactVelocity ContactVelocityAt(Scene scene, absl::Span<const double> rates);
 
 // Returns, for each direction, the sum of the magnitudes of the terms that this velocity is the sum of: what each rate
 // and the surface add to it. The velocity is rounded by some ulp of these, although it may be much smaller.
-ContactVelocity SizeOfTerms(Scene scene, absl::Span<const double> rates);
+ContactVelocity SizeOfTerms(const Scene& scene, absl::Span<const double> rates);
 
 }  // namespace ricochet
 

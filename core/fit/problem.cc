@@ -265,8 +265,9 @@ class Door {
   void SetDerivatives() {
     Scene scene = problem_.batch.scene;
     for (const std::string& path : problem_.batch.fields) static_cast<void>(ResolveField(path, scene));
-    problem_.is_slow = TangentialDirections(scene.system) > 1 || TakesTime(scene);
     const char* const part = WhyNotExact(scene);
+    problem_.is_slow = TangentialDirections(scene.system) > 1 || TakesTime(scene) ||
+                       (part != nullptr && problem_.has_uncertain_inputs());
     if (part != nullptr) {
       problem_.why_differences = part;
     } else if (!CheckDerivatives(scene, {}, {.of = problem_.batch.columns, .by = problem_.unknown_paths()}).empty()) {

@@ -43,7 +43,7 @@ struct Problem {
   int32_t max_iterations = kFitIterations;
   std::vector<size_t> region;   // The unknowns whose region is wanted: none or two.
   std::string why_differences;  // Why there are no exact derivatives; empty if there are.
-  bool is_slow = false;         // An impact may take milliseconds.
+  bool is_slow = false;         // An impact, or a row of several, may take milliseconds.
 
   size_t unknowns() const { return start.size(); }
   size_t columns() const { return batch.columns.size(); }

@@ -35,6 +35,11 @@ void CheckList(const std::vector<Effect>& effects, const char* field, std::vecto
   }
 }
 
+void CheckLists(const DemandFields& fields, std::vector<Violation>& violations) {
+  CheckList(fields.required, "required", violations);
+  CheckList(fields.excluded, "excluded", violations);
+}
+
 // A set counts its effects in order of their numbers; the violation shall count those of the list.
 void NameByList(const std::vector<Effect>& list, const char* field, Violation& violation) {
   std::vector<Effect> in_order = list;
@@ -58,14 +63,14 @@ Demand ToDemand(const DemandFields& fields) {
 std::vector<Violation> CheckDemand(const DemandFields& fields) {
   std::vector<Violation> violations;
   if (fields.relative_tolerance.has_value()) CheckTolerance(*fields.relative_tolerance, violations);
-  CheckList(fields.required, "required", violations);
-  CheckList(fields.excluded, "excluded", violations);
+  CheckLists(fields, violations);
   return violations;
 }
 
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact,
                                    const DemandFields& fields) {
-  std::vector<Violation> violations = CheckDemand(fields);
+  std::vector<Violation> violations;
+  CheckLists(fields, violations);
   if (!violations.empty()) return violations;
   violations = CheckDemand(scene, contact, ToDemand(fields));
   for (Violation& violation : violations) {

@@ -260,7 +260,8 @@ TEST_P(SolverContract, APlanOfABadRequestReportsEveryViolation) {
               ElementsAre(Field(&Violation::field, "relative_tolerance"), Field(&Violation::field, "required[0]")));
   request.scene.friction.kinetic_coefficient = -1.0;
   EXPECT_THAT(ViolationsOf(solver().Plan(request).status()),
-              ElementsAre(Field(&Violation::field, "friction.kinetic_coefficient")));
+              ElementsAre(Field(&Violation::field, "friction.kinetic_coefficient"),
+                          Field(&Violation::field, "relative_tolerance")));
 }
 
 // Calls every method that answers once, and returns the errors.
