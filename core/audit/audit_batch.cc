@@ -203,12 +203,13 @@ absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, audit::InputScene& own,
   }
   const Impact& impact = of_row.has_value() ? *of_row : *shared_;
   const audit::AnyProblem problem = ProblemAt(row, impact);
-  const audit::Observation seen = ObservationAt(row, impact);
+  const std::vector<double> rates = RatesAt(row);
+  const audit::Observation seen = ObservationAt(row, rates, impact);
   if (!IsValid(problem, seen)) return AuditReport{.regime = Regime::kInvalid};
   absl::StatusOr<AuditReport> report = audit::Audit(problem, seen, stopped);
   if (absl::IsOutOfRange(report.status())) return AuditReport{.regime = Regime::kInvalid};
   if (report.ok() && !columns_.rates_after.empty()) {
-    audit::CheckRates(impact.reduction, RatesAt(row), seen, *report);
+    audit::CheckRates(impact.reduction, rates, seen, *report);
   }
   if (report.ok() && audit::OverflowIn(*report) != nullptr) return AuditReport{.regime = Regime::kInvalid};
   return report;
@@ -256,10 +257,9 @@ std::vector<double> AuditRows::RatesAt(size_t row) const {
   return rates;
 }
 
-audit::Observation AuditRows::ObservationAt(size_t row, const Impact& impact) const {
+audit::Observation AuditRows::ObservationAt(size_t row, absl::Span<const double> rates, const Impact& impact) const {
   audit::Observation seen = impact.terms;
   if (!columns_.rates_after.empty()) {
-    const std::vector<double> rates = RatesAt(row);
     const ContactVelocity velocity = ContactVelocityAt(impact.scene, rates);
     audit::AddTerms(impact.scene, rates, seen);
     std::copy(velocity.tangential_m_s.begin(), velocity.tangential_m_s.end(), seen.u1.begin());

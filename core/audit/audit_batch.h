@@ -42,7 +42,7 @@ class AuditRows {
     Scene scene;
     AnyReduction reduction;
     audit::AnyProblem problem;
-    audit::Observation terms;  // Those of its own velocity; none if the columns state another.
+    audit::Observation terms;  // It has the terms of the scene's own velocity, and none if the columns state another.
   };
 
   AuditRows(const AuditBatchRequest& request, size_t size)
@@ -56,7 +56,7 @@ class AuditRows {
   void SetVelocity(size_t row, spatial::Problem& problem) const;
   void SetFriction(size_t row, const Scene& scene, double& mu, double& mu_static) const;
   std::vector<double> RatesAt(size_t row) const;
-  audit::Observation ObservationAt(size_t row, const Impact& impact) const;
+  audit::Observation ObservationAt(size_t row, absl::Span<const double> rates, const Impact& impact) const;
 
   const AuditBatchRequest& request_;
   const AuditColumns& columns_;

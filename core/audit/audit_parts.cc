@@ -62,6 +62,9 @@ Scene WithoutRestitution(Scene scene) {
 
 namespace {
 
+// The share of a velocity that counts as rounding.
+constexpr double kRounding = 1e-9;
+
 // Returns the largest speed of the contact along one direction, before and after, with the terms of both.
 template <typename Reduction>
 double SpeedOf(const Reduction& reduction, const Observation& seen) {
@@ -72,11 +75,10 @@ double SpeedOf(const Reduction& reduction, const Observation& seen) {
 }
 
 // Returns how far one velocity of the system is from what the impulse makes of it, `expected`, as the speed of the
-// contact that changes it as much; 0 where the uncertainty or rounding explains that.
+// contact that changes it as much; 0 where `uncertainty` of the contact velocity or rounding explains that.
 template <typename Reduction>
-double DistanceOf(const Reduction& reduction, size_t place, double rate, double expected, const Observation& seen,
+double DistanceOf(const Reduction& reduction, size_t place, double rate, double expected, double uncertainty,
                   const std::array<double, Reduction::kDirections>& impulse) {
-  constexpr double kRounding = 1e-9;
   double size = std::fabs(rate) + std::fabs(reduction.before[place]), by_speed = 0.0;
   for (size_t a = 0; a < Reduction::kDirections; ++a) {
     const double response = reduction.response[place * Reduction::kDirections + a];
@@ -85,9 +87,7 @@ double DistanceOf(const Reduction& reduction, size_t place, double rate, double 
     if (mobility > 0.0) by_speed += std::fabs(response) / mobility;
   }
   const double miss = std::fabs(rate - expected);
-  // Where an impulse cancels, what is left of it is rounding of speeds.
-  const double explained = by_speed * (seen.uncertainty + kRounding * SpeedOf(reduction, seen)) + kRounding * size;
-  if (!(miss > explained)) return 0.0;
+  if (!(miss > by_speed * uncertainty + kRounding * size)) return 0.0;
   return by_speed > 0.0 ? miss / by_speed : miss;
 }
 
@@ -115,8 +115,10 @@ void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, c
         std::copy(tangential.begin(), tangential.end(), impulse.begin());
         impulse.back() = report.normal_impulse;
         const auto expected = of.After(tangential, report.normal_impulse);
+        // Where an impulse cancels, what is left of it is rounding of speeds.
+        const double uncertainty = seen.uncertainty + kRounding * SpeedOf(of, seen);
         for (size_t i = 0; i < rates.size(); ++i) {
-          const double distance = DistanceOf(of, i, rates[i], expected[i], seen, impulse);
+          const double distance = DistanceOf(of, i, rates[i], expected[i], uncertainty, impulse);
           report.distance = std::max(report.distance, distance);
         }
       },

@@ -25,7 +25,7 @@ Scene WithoutRestitution(Scene scene);
 
 // Adds the terms of the velocity of the contact at these rates of the scene's system.
 void AddTerms(const Scene& scene, absl::Span<const double> rates, Observation& seen);
-// Adds those before the impact.
+// Adds the terms before the impact.
 void AddTermsBefore(const Scene& scene, const AnyReduction& reduction, Observation& seen);
 
 // Calls a report of what was seen unexplained if its impulse does not make these velocities of the system, to within

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -174,10 +176,9 @@ absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, con
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   std::optional<SceneContact> contact;
   std::vector<Violation> violations = Validate(request.scene, RestitutionIs::kRequired, contact);
-  for (Violation& violation :
-       violations.empty() ? CheckDemand(request.scene, contact, request.demand) : CheckDemand(request.demand)) {
-    violations.push_back(std::move(violation));
-  }
+  std::vector<Violation> of_demand =
+      violations.empty() ? CheckDemand(request.scene, contact, request.demand) : CheckDemand(request.demand);
+  std::move(of_demand.begin(), of_demand.end(), std::back_inserter(violations));
   if (!violations.empty()) return InvalidRequest(violations);
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
   absl::StatusOr<ricochet::Plan> plan = PlanOf(request.scene, contact, ToDemand(request.demand));

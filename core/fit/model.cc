@@ -110,7 +110,7 @@ bool Model::Residuals(const std::vector<double>& unknowns, std::vector<double>& 
   }
   if (!SettleHere(unknowns)) return false;
   for (const SettledRow& row : settled_) Append(row.residuals, residuals);
-  for (const SettledRow& row : settled_) residuals.insert(residuals.end(), row.held.begin(), row.held.end());
+  for (const SettledRow& row : settled_) Append(row.held, residuals);
   return std::none_of(residuals.begin(), residuals.end(), [](double value) { return std::isnan(value); });
 }
 
@@ -125,10 +125,14 @@ bool Model::ResidualsAll(const Table& points, Table& residuals) {
     return true;
   }
   size_t settled = 0;
+  std::vector<double> held;
   return Settle(points, [&](const SettledRow& row) {
-    if (settled++ % problem_.rows == 0) residuals.emplace_back();
+    if (settled % problem_.rows == 0) residuals.emplace_back();
     Append(row.residuals, residuals.back());
-    residuals.back().insert(residuals.back().end(), row.held.begin(), row.held.end());
+    Append(row.held, held);
+    if (++settled % problem_.rows != 0) return;
+    residuals.back().insert(residuals.back().end(), held.begin(), held.end());
+    held.clear();
   });
 }
 

@@ -58,15 +58,11 @@ class Door {
     const bool has_fields = violations_.empty();
     for (size_t k = 0; k < request_.unknowns.size() && has_fields; ++k) SetUnknown(k);
     for (size_t i = 0; i < request_.inputs.size(); ++i) SetInput(i);
-    for (size_t i = 0; i < request_.inputs.size() && has_fields; ++i) {
-      Scene scene = request_.scene;
-      problem_.input_ranges.push_back(RangeOf(ResolveField(request_.inputs[i].path, scene)->rule()));
-    }
     SetNumbers();
     SetSearch();
     SetRegion();
     if (!violations_.empty()) return InvalidRequest(violations_);
-    SetDerivatives();
+    SetFields();
     return std::move(problem_);
   }
 
@@ -261,10 +257,14 @@ class Door {
     }
   }
 
-  // All rows have the same parts, so that one scene tells for all of them whether there are derivatives.
-  void SetDerivatives() {
+  // All rows have the same parts, so that one scene, with all fields, tells for all of them whether there are
+  // derivatives, and in which ranges the inputs lie.
+  void SetFields() {
     Scene scene = problem_.batch.scene;
-    for (const std::string& path : problem_.batch.fields) static_cast<void>(ResolveField(path, scene));
+    for (size_t i = 0; i < problem_.batch.fields.size(); ++i) {
+      const NumberRule rule = ResolveField(problem_.batch.fields[i], scene)->rule();
+      if (i >= problem_.unknowns()) problem_.input_ranges.push_back(RangeOf(rule));
+    }
     const char* const part = WhyNotExact(scene);
     problem_.is_slow = TangentialDirections(scene.system) > 1 || TakesTime(scene) ||
                        (part != nullptr && problem_.has_uncertain_inputs());

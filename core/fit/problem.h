@@ -52,7 +52,7 @@ struct Problem {
     return static_cast<size_t>(
         std::count_if(input_sigmas.begin(), input_sigmas.end(), [](const auto& column) { return !column.empty(); }));
   }
-  // Those of all numbers, and behind them, row by row, those of uncertain inputs that cannot move.
+  // Counts the residuals of all numbers and, behind them, row by row, of uncertain inputs that cannot move.
   size_t residuals() const { return numbers.size() + rows * uncertain_inputs(); }
   std::vector<std::string> unknown_paths() const {
     return {batch.fields.begin(), batch.fields.begin() + static_cast<std::ptrdiff_t>(unknowns())};

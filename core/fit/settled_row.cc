@@ -38,7 +38,7 @@ class Row {
     double sigma;
     double size;       // That of the input in any row.
     double low, high;  // Between these the input keeps its rule.
-    size_t place;      // Among the uncertain inputs of the problem.
+    Index place;       // Among the uncertain inputs of the problem.
 
     double Within(double value) const { return std::clamp(value, low, high); }
     // True if the input lies at an end, beyond which the target is.
@@ -62,7 +62,7 @@ class Row {
   const std::vector<double>& stated() const { return stated_; }
   const std::vector<Uncertain>& uncertain() const { return uncertain_; }
   Index count() const { return static_cast<Index>(count_); }
-  size_t places() const { return places_; }  // The uncertain inputs of the problem.
+  Index places() const { return places_; }  // How many uncertain inputs the problem has.
   bool has_robust_loss() const { return problem_.loss != FitLoss::kSquares; }
   const Number& NumberAt(Index i) const { return problem_.numbers[first_ + static_cast<size_t>(i)]; }
 
@@ -98,7 +98,7 @@ class Row {
   size_t first_, count_;
   std::vector<double> stated_;
   std::vector<Uncertain> uncertain_;
-  size_t places_ = 0;
+  Index places_ = 0;
 };
 
 void AppendPlace(const std::vector<double>& unknowns, const std::vector<double>& inputs, Table& fields) {
@@ -124,9 +124,8 @@ class Search {
              .sigmas = none,
              .residuals = none,
              .whitening = {},
-             .held = {},
+             .held = VectorXd::Zero(row.places()),
              .held_inputs = 0};
-    best_.held.assign(row.places(), 0.0);
   }
 
   const Row& row() const { return row_; }
@@ -164,8 +163,7 @@ class Search {
     if (!is_done_) return Step();
     // On a corner straight lines promise less than the inputs attain.
     const double promised = best_.residuals.squaredNorm();
-    double own = attained_;
-    for (const double shift : best_.held) own -= shift * shift;
+    const double own = attained_ - best_.held.squaredNorm();
     const bool is_on_corner = std::isfinite(attained_) && Moves(1.0);
     if (is_on_corner && promised > 0.0) best_.residuals *= std::sqrt(std::max(own, 0.0) / promised);
   }
@@ -205,32 +203,34 @@ class Search {
   // its range is held, one after the other.
   void SetBest(const VectorXd& predicted) {
     best_.inputs = inputs_;
-    best_.held.assign(row_.places(), 0.0);
+    best_.held.setZero();
     best_.held_inputs = 0;
+    const std::vector<Row::Uncertain>& uncertain = row_.uncertain();
     const VectorXd shift = row_.ShiftFrom(inputs_);
     at_stated_ = predicted + slopes_ * shift;
-    std::vector<bool> is_held(row_.uncertain().size(), false);
+    std::vector<bool> is_held(uncertain.size(), false);
+    const auto would_leave = [this](const Row::Uncertain& one) {
+      return one.IsHeld(inputs_[one.input], target_[one.input]);
+    };
     while (true) {
-      SetBest(predicted, is_held);
-      size_t j = 0;
-      const auto is_caught = [&](const Row::Uncertain& uncertain) {
-        return !is_held[j] && uncertain.IsHeld(inputs_[uncertain.input], target_[uncertain.input]);
-      };
-      while (j < is_held.size() && !is_caught(row_.uncertain()[j])) ++j;
-      if (j == is_held.size()) return;
-      is_held[j] = true;
+      SetTarget(predicted, is_held);
+      const auto next = std::find_if(uncertain.begin(), uncertain.end(), would_leave);
+      if (next == uncertain.end()) return;
+      const auto j = next - uncertain.begin();
+      is_held[static_cast<size_t>(j)] = true;
       ++best_.held_inputs;
-      best_.held[row_.uncertain()[j].place] = shift[static_cast<Index>(j)] / row_.uncertain()[j].sigma;
+      best_.held[next->place] = shift[j] / next->sigma;
     }
   }
 
-  void SetBest(const VectorXd& predicted, const std::vector<bool>& is_held) {
-    MatrixXd in_sigmas = slopes_;  // J diag(s_z)
+  // Sets what the straight lines at the present inputs promise, and the target, at which those that are held stay.
+  void SetTarget(const VectorXd& predicted, const std::vector<bool>& is_held) {
     MatrixXd free_slopes = slopes_;
-    for (Index j = 0; j < in_sigmas.cols(); ++j) {
-      in_sigmas.col(j) *= is_held[static_cast<size_t>(j)] ? 0.0 : row_.uncertain()[static_cast<size_t>(j)].sigma;
+    for (Index j = 0; j < free_slopes.cols(); ++j) {
       if (is_held[static_cast<size_t>(j)]) free_slopes.col(j).setZero();
     }
+    MatrixXd in_sigmas = free_slopes;  // J diag(s_z)
+    for (Index j = 0; j < in_sigmas.cols(); ++j) in_sigmas.col(j) *= row_.uncertain()[static_cast<size_t>(j)].sigma;
     MatrixXd stacked = MatrixXd::Zero(row_.count() + in_sigmas.cols(), row_.count());
     VectorXd measured(row_.count());
     for (Index i = 0; i < row_.count(); ++i) {
@@ -285,10 +285,10 @@ class Search {
   const std::vector<double>& unknowns_;
   std::vector<double> inputs_, target_;
   MatrixXd slopes_;     // J at the best inputs.
-  VectorXd at_stated_;  // What its straight lines predict for the stated inputs.
+  VectorXd at_stated_;  // The prediction for the stated inputs by these straight lines.
   SettledRow best_;
   double attained_ = std::numeric_limits<double>::infinity();
-  double part_ = 1.0;  // What the next step goes of the way to the target.
+  double part_ = 1.0;  // The next step goes this part of the way to the target.
   int steps_ = 0;
   bool is_done_;
 };

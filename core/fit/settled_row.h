@@ -35,7 +35,7 @@ struct SettledRow {
   Eigen::MatrixXd whitening;
   // For each uncertain input of the problem its shift in sigmas, if it lies at the end of what its rule allows and
   // would go beyond; else 0. The objective counts its square, too.
-  std::vector<double> held;
+  Eigen::VectorXd held;
   size_t held_inputs = 0;  // How many lie so. That of one whose stated value is the end has no shift.
 };
 

@@ -136,7 +136,8 @@ class Table:
         import xarray
 
         def attributes(name: str) -> dict[str, str]:
-            return {"units": unit_of(name)} if unit_of(name) else {}
+            unit = unit_of(name)
+            return {"units": unit} if unit else {}
 
         shape = [len(values) for values in self.axes.values()] if self.is_grid else [len(self)]
         dimensions = list(self.axes) if self.is_grid else ["row"]

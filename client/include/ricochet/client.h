@@ -40,7 +40,8 @@ namespace ricochet {
 //
 // Errors: a Client returns the errors of Solver with the same reason and violations, UNAVAILABLE and DEADLINE_EXCEEDED
 // of the network, UNAUTHENTICATED and PERMISSION_DENIED for a client without a token or a scope that the server wants,
-// FAILED_PRECONDITION for a server that is not trusted or does not speak TLS, and DATA_LOSS if chunks do not fit.
+// FAILED_PRECONDITION for a server that is not trusted or does not speak TLS, and DATA_LOSS if the chunks of a stream
+// do not fit together (a gap, a repetition, a wrong size, an early end).
 class Client final : public Solver {
  public:
   // Returns without waiting for a connection: only the first call finds out that no server is there.
