@@ -625,6 +625,7 @@ class Client:
         self, M: ArrayLike, J: ArrayLike, qdot: ArrayLike, normal: ArrayLike, *, friction: ArrayLike = 0.0,
         energetic: ArrayLike | None = None, newton: ArrayLike | None = None, poisson: ArrayLike | None = None,
         held: Iterable[int] = (), tolerance: float | None = None,
+        derivatives: Mapping[str, Names | bool] | None = None,
     ) -> AtContact:
         """Computes the impact of a mechanism from what a library of multibody dynamics gives at one instant.
 
@@ -642,6 +643,9 @@ class Client:
             held: coordinates that a brake or a stiff controller holds: their velocities do not change. With a floating
                 base, ``held=range(6, n)`` takes the mechanism for one rigid body.
             tolerance: as in ``solve``.
+            derivatives: of a single state, as in ``solve``: ``{"of": ["rates_after[0]"], "by": ["rates[0]", "mu"]}``;
+                ``answer.jacobian(of, by)`` gives them. The numbers are those of the mechanism, ``jacobian`` among them
+                in the contact frame of this state.
 
         Returns:
             ``rates_after``, the generalised velocities after the impact, and ``impulse_n_s`` on the mechanism in world
@@ -664,9 +668,12 @@ class Client:
             raise InvalidRequest.of([
                 Violation(name, f"has {size} numbers: must have one, or one for each of the {states.count} states")
                 for name, size in several.items() if size not in (1, states.count)])
-        if not states.is_batch and not several:
+        is_single = not states.is_batch and not several
+        if derivatives is not None and not is_single:
+            values.refuse("derivatives", "is set: must not be for several states, whose batch has none")
+        if is_single:
             parts = {"friction": {"kinetic_coefficient": friction}, "restitution": restitution}
-            outcome = self.solve({**states.scene(0), **parts}, tolerance=tolerance)
+            outcome = self.solve({**states.scene(0), **parts}, tolerance=tolerance, derivatives=derivatives)
             rates, impulse = _without_ends(
                 np.array(outcome.rates_after), states.in_world(outcome), np.array(outcome.accuracy.relative_error))
             return AtContact(rates, impulse, outcome)

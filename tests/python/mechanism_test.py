@@ -78,6 +78,23 @@ class SingleStates(Case):
         np.testing.assert_allclose(after.rates_after, [2.55, 3.4, 0.5], rtol=1e-14)
         self.assertEqual(after.answer.regime, "SLIDING")
 
+    def test_derivatives_are_those_of_a_mass_that_slides_in_any_axes(self):
+        # v_n' = -e v_n, and the slip loses mu (1 + e) |v_n| of its length s, so that it turns by as much over s.
+        mu, e, rates = 0.5, 0.25, np.array([3.0, 4.0, -1.0])
+        unit, s = np.array([0.6, 0.8, 0]), 5.0
+        loss = mu * (1 + e)
+        expected = np.diag([1, 1, -e]) - loss / s * (np.diag([1.0, 1.0, 0]) - np.outer(unit, unit))
+        expected[:, 2] += loss * unit
+        turn = rotation()
+        of, by = ([f"{name}[{i}]" for i in range(3)] for name in ("rates_after", "rates"))
+        ask = lambda **more: ricochet.at_contact(
+            2 * np.eye(3), turn, rates, turn @ [0, 0, 3], friction=mu, newton=e, **more)
+        found = ask(derivatives={"of": of, "by": [*by, "mu"]}).answer.jacobian(of, [*by, "mu"])
+        np.testing.assert_allclose(found[:, :3], expected, atol=1e-9)
+        np.testing.assert_allclose(found[:, 3], -(1 + e) * unit, atol=1e-9)
+        with self.assertRaisesRegex(ricochet.InvalidRequest, "^derivatives is set: must not be for several states"):
+            ricochet.at_contact([2 * np.eye(3)], turn, rates, turn @ [0, 0, 3], newton=e, derivatives={"of": of, "by": by})
+
     def test_a_pendulum_is_the_mechanism_of_one_coordinate(self):
         expected = ricochet.solve(PENDULUM)
         after = ricochet.at_contact([[1]], [[1], [0], [0.3]], [-1], [0, 0, 1], friction=0.1, energetic=1)
