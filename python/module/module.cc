@@ -20,6 +20,7 @@
 #include "core/base/invariant.h"
 #include "proto/wire/info.h"
 #include "python/module/call.h"
+#include "python/module/columns.h"
 #include "python/module/record.h"
 #include "python/module/request.h"
 #include "python/module/rows.h"
@@ -109,6 +110,17 @@ py::object Answer(const Callee& solver, py::handle scene, const py::dict& argume
   return RecordOf(ToProto(Call(solver).Ask(kMethod, RequestOf<Wire>(scene, arguments))));
 }
 
+// Answers with the numbers and the codes of the rows as arrays, and the summary as a record.
+py::tuple AuditBatch(const Callee& solver, py::handle scene, const py::dict& arguments) {
+  const auto answer =
+      ToProto(Call(solver).Ask(&Solver::AuditBatch, RequestOf<v1::AuditBatchRequest>(scene, arguments)));
+  std::vector<const google::protobuf::Message*> rows;
+  for (const v1::AuditReport& report : answer.reports()) rows.push_back(&report);
+  Columns columns;
+  AddColumns(*v1::AuditReport::descriptor(), rows, "", columns);
+  return py::make_tuple(columns.numbers, columns.codes, RecordOf(answer.summary()));
+}
+
 // Answers with one message that has all rows.
 py::object Cost(const Callee& solver, py::handle scene, const py::dict& arguments, const py::object& progress) {
   const auto request = RequestOf<v1::CostRequest>(scene, arguments);
@@ -139,7 +151,7 @@ void AddSolver(py::module_& module) {
       .def("plan", &Answer<v1::PlanRequest, &Solver::Plan>)
       .def("bounds", &Answer<v1::BoundsRequest, &Solver::Bounds>)
       .def("audit", &Answer<v1::AuditRequest, &Solver::Audit>)
-      .def("audit_batch", &Answer<v1::AuditBatchRequest, &Solver::AuditBatch>)
+      .def("audit_batch", &AuditBatch)
       .def("fit", &Answer<v1::FitRequest, &Solver::Fit>)
       .def("multicontact", &Answer<v1::MultiContactRequest, &Solver::MultiContact>)
       .def("info", &Info)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Mapping, Uni
 
 import numpy as np
 
-from ricochet import _core, errors, mechanisms, names, values
+from ricochet import _core, errors, labels, mechanisms, names, values
 from ricochet import axes as sweep_axes
 from ricochet._core import Scene
 from ricochet.connection import resolve
@@ -261,7 +261,8 @@ class Client:
         listed = tuple(_range(path, ends) for path, ends in named.items())
         paths = None if derivatives is None else _full_paths(derivatives, {"by": scene._fields()})
         arguments = {"ranges": listed, "certified": certified, "derivatives": paths}
-        return self._solver.bounds(scene, arguments)
+        with errors.naming(ranges=list(named)):
+            return self._solver.bounds(scene, arguments)
 
     def audit(
         self, scene: SceneLike, *, contact_velocity: Mapping[str, Any] | None = None,
@@ -290,7 +291,8 @@ class Client:
             arguments["contact_velocity"] = contact_velocity
         if rates_after is not None:
             arguments["rates"] = {"values": np.atleast_1d(values.column(rates_after, "rates_after"))}
-        return self._solver.audit(scene, arguments)
+        with errors.naming(rates="rates_after"):
+            return self._solver.audit(scene, arguments)
 
     def audit_batch(self, scene: SceneLike, columns: Mapping[str, Any]) -> Table:
         """Audits many observed impacts of scenes of one form.
@@ -301,7 +303,7 @@ class Client:
                 ``normal_after_m_s``, m/s, or of fields of the scene that differ by row, such as
                 ``planar_body.velocity_n_m_s``, all equally long or single numbers; ``rates_after`` is a list with an
                 array for each velocity of the system, in the order of ``audit``, or each of them has a column, such as
-                ``bodies_after[0].angular_rad_s[0]``. A pandas frame will do.
+                ``bodies_after[0].angular_rad_s[0]``. A pandas frame or an xarray dataset will do.
 
         Returns:
             A table with every number of ricochet.v1.AuditReport; ``limits.sharp.verdict`` and its like are codes.
@@ -323,9 +325,9 @@ class Client:
                 values.refuse("columns", f"has velocities after: must have {', '.join(missing)}, too")
             arrays["rates_after"] = _columns_of("rates_after", [arrays.pop(name) for name in velocities])
         rows = _row_count([column.shape[-1] for column in arrays.values()])
-        index = _index_of("columns", columns, given, rows)
+        index = labels.common("columns", given.values(), rows)
         most = self._most_audit_rows(sum(1 if column.ndim == 1 else len(column) for column in arrays.values()))
-        answers = []
+        parts = []
         for start in range(0, max(rows, 1), most):  # Without rows one call checks the scene.
             part: dict[str, Any] = {
                 name: _part(column, start, start + most) for name, column in arrays.items() if rows}
@@ -333,13 +335,12 @@ class Client:
                 part["rates_after"] = [{"values": rate} for rate in np.atleast_2d(part["rates_after"])]
             inputs = [{"path": name, "values": part.pop(name)} for name in list(part) if name not in observed]
             with errors.naming(inputs=[column["path"] for column in inputs]):
-                answer = self._solver.audit_batch(scene, {"columns": part, "inputs": inputs})
-            if len(answer.reports) != min(most, rows - start):
-                raise RicochetError(f"the server answers {len(answer.reports)} rows of an audit", code="DATA_LOSS")
-            answers.append(answer)
-        flat = [_flat(report) for answer in answers for report in answer.reports]
+                parts.append(self._solver.audit_batch(scene, {"columns": part, "inputs": inputs}))
+            found = len(parts[-1][1]["regime"])
+            if found != min(most, rows - start):
+                raise RicochetError(f"the server answers {found} rows of an audit", code="DATA_LOSS")
         stated = {name: np.broadcast_to(column, rows).copy() for name, column in arrays.items() if name not in observed}
-        return _audit_table(flat, [answer.summary for answer in answers], stated, index)
+        return _audit_table(parts, stated, index)
 
     def fit(
         self, scene: SceneLike, table: Mapping[str, ArrayLike], unknown: Names | Mapping[str, float | None], *,
@@ -354,7 +355,7 @@ class Client:
             scene: gives every number that is neither unknown nor a column of the table.
             table: an array for each column: numbers of the scene that differ by row, numbers of the outcome that were
                 measured (NaN or masked where they were not), and ``"NAME.sigma"``, the standard deviations of the
-                column ``NAME``. A pandas frame will do. Names may be short.
+                column ``NAME``. A pandas frame or an xarray dataset will do. Names may be short.
             unknown: the numbers to find, each with the value where the search starts if it is a dictionary; None and
                 names alone start at the scene's own number.
             sigma: standard deviations of columns that the table has none of: numbers or arrays. A number of the scene
@@ -378,7 +379,8 @@ class Client:
         scene = Scene(scene)
         fields, numbers = list(scene._fields()), list(scene._columns())
         inputs, measured, listed = {}, {}, {}
-        for path, given in names.by_full_name(table, fields + numbers, "table").items():
+        columns_given = names.by_full_name(table, fields + numbers, "table")
+        for path, given in columns_given.items():
             column = np.atleast_1d(values.column(given, path))
             if path.endswith(".sigma"):
                 listed[path[: -len(".sigma")]] = column
@@ -393,6 +395,8 @@ class Client:
                 if "sigma" in columns[path]:
                     values.refuse(what, f"= {path!r}: is {path}.sigma of the table a second time")
                 columns[path]["sigma"] = np.atleast_1d(values.column(given, f"{path}.sigma"))
+        rows = _row_count([np.size(column) for column in columns_given.values()])
+        labels.common("table", [*columns_given.values(), *(sigma or {}).values()], rows)
         if isinstance(unknown, Mapping):
             given_starts = list(names.by_full_name(unknown, fields, "unknown").items())
         else:
@@ -422,9 +426,9 @@ class Client:
         Args:
             scene: gives every field that no column states.
             inputs: an array for each field that varies, by the field's path, ``"planar_contact.normal_m_s"``, or a
-                short name, ``"mu"``. They are equally long, or single numbers for all rows. A pandas frame will do; its
-                index is kept. What is missing (None, pandas.NA, masked) is NaN, which makes the row invalid. An array
-                of doubles that lie side by side is read where it is; the table has a copy.
+                short name, ``"mu"``. They are equally long, or single numbers for all rows. A pandas frame or an xarray
+                dataset will do; its index is kept. What is missing (None, pandas.NA, masked) is NaN, which makes the
+                row invalid. An array of doubles that lie side by side is read where it is; the table has a copy.
             columns: the numbers of the outcome to compute: ``"contact_velocity_after.normal_m_s"``, or short names,
                 ``["newton", "poisson"]``; ``"d(newton)/d(mu)"`` is a derivative. The table has their full names.
             tolerance, require, exclude: as in ``solve``, for every row.
@@ -469,7 +473,7 @@ class Client:
                     for row, status, field, description in bad_rows
                 ],
             ),
-            index=_index_of("inputs", inputs, given, len(regimes)),
+            index=labels.common("inputs", given.values(), len(regimes)),
         )
 
     @overload
@@ -534,6 +538,8 @@ class Client:
             values.refuse("form", f"= {form!r}: must be 'xarray', 'pandas' or 'table'")
         scene = Scene(scene)
         given = names.by_full_name(axes, scene._fields(), "axes")
+        if zip_axes:
+            labels.common("axes", given.values(), _row_count([np.size(axis) for axis in given.values()]))
         wanted = names.full_columns(values.names(columns, "columns"), scene._columns(), scene._fields())
         arguments = {
             "axes": [sweep_axes.to_fields(path, axis) for path, axis in given.items()],
@@ -677,6 +683,7 @@ class Client:
             rates, impulse = _without_ends(
                 np.array(outcome.rates_after), states.in_world(outcome), np.array(outcome.accuracy.relative_error))
             return AtContact(rates, impulse, outcome)
+        labels.common("friction", [friction, *restitution.values()], max(several.values(), default=1))
         inputs = {"friction.kinetic_coefficient": friction, **states.columns}
         inputs.update({f"restitution.{name}": value for name, value in restitution.items()})
         table = self._batch(mechanisms.CONTACT, inputs, mechanisms.COLUMNS, {"tolerance": tolerance})
@@ -750,14 +757,6 @@ def _range(path: str, ends: Any) -> dict[str, Any]:
     if pair.shape != (2,):
         values.refuse(path, f"= {values.shown(ends)}: must be two numbers, the least first")
     return {"path": path, "low": pair[0], "high": pair[1]}
-
-
-def _index_of(argument: str, given: Any, columns: Mapping[str, Any], rows: int) -> Any:
-    """Returns the index of a pandas frame, or the one that all series with so many rows have; None if there is none."""
-    indices = [one.index for one in (given, *columns.values()) if hasattr(one, "iloc") and len(one) == rows]
-    if not all(index.equals(indices[0]) for index in indices):
-        values.refuse(argument, "has series of different indices: must have one index for all")
-    return indices[0] if indices else None
 
 
 def _full_paths(derivatives: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, Any]:
@@ -855,42 +854,23 @@ def _part(column: NDArray[Any], start: int, end: int) -> NDArray[Any]:
     return column if column.shape[-1] == 1 else column[..., start:end]
 
 
-def _flat(record: Record, path: str = "") -> dict[str, Any]:
-    """Returns the numbers and names of nested records by their paths."""
-    flat: dict[str, Any] = {}
-    for name, value in record.items():
-        where = f"{path}{name}"
-        if isinstance(value, Record):
-            flat.update(_flat(value, where + "."))
-        elif isinstance(value, list):
-            flat.update({f"{where}[{i}]": entry for i, entry in enumerate(value)})
-        else:
-            flat[where] = value
-    return flat
-
-
 def _audit_table(
-    rows: list[dict[str, Any]], summaries: list[Record], stated: dict[str, NDArray[Any]], index: Any
+    parts: list[tuple[dict[str, NDArray[np.float64]], dict[str, NDArray[np.uint8]], Record]],
+    stated: dict[str, NDArray[Any]], index: Any,
 ) -> Table:
-    # Lists of invalid rows are empty, so that the names are those of the fullest row.
-    fullest: dict[str, Any] = max(rows, key=len, default={})
-    codes: dict[str, Codes] = {}
+    codes = {name: Codes(np.concatenate([part[1][name] for part in parts]),
+                         _REGIMES if name == "regime" else _VERDICTS) for name in parts[0][1]}
+    invalid = codes["regime"].equal("INVALID")
     columns: dict[str, NDArray[np.float64]] = {}
-    for name in fullest:
-        values = [row.get(name) for row in rows]
-        if any(isinstance(value, str) for value in values):
-            known = _REGIMES if name == "regime" else _VERDICTS
-            codes[name] = Codes(np.array([known.index(str(value)) for value in values], np.uint8), known)
-        else:
-            columns[name] = np.array(values, dtype=np.float64)
-    invalid = codes["regime"].equal("INVALID") if codes else np.empty(0, np.bool_)
-    for column in columns.values():
-        column[invalid] = np.nan
+    # Lists of invalid rows are empty, so that a part may have fewer columns.
+    for name in max((part[0] for part in parts), key=len):
+        columns[name] = np.concatenate(
+            [part[0].get(name, np.full(len(part[1]["regime"]), np.nan)) for part in parts])
+        columns[name][invalid] = np.nan
     summary = Record(
-        rows=sum(each.rows for each in summaries),
-        admissible=sum(each.admissible for each in summaries),
-        invalid=sum(each.invalid.count for each in summaries),
-        parts=summaries,
+        rows=sum(part[2].rows for part in parts),
+        admissible=sum(part[2].admissible for part in parts),
+        invalid=sum(part[2].invalid.count for part in parts),
+        parts=[part[2] for part in parts],
     )
-    regimes = {"regime": Codes(np.empty(0, np.uint8), _REGIMES)}
-    return Table(columns, codes or regimes, stated, summary=summary, index=index)
+    return Table(columns, codes, stated, summary=summary, index=index)

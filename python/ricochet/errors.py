@@ -83,16 +83,19 @@ class TimedOut(RicochetError, TimeoutError):
 
 
 @contextlib.contextmanager
-def naming(**lists: Sequence[str]) -> Iterator[None]:
-    """Names an entry of a list of the request by its path: ``unknowns[0].low`` is ``pendulum.a_m.low``."""
+def naming(**names: Sequence[str]) -> Iterator[None]:
+    """Names what the request calls otherwise than the caller: an entry of a list by its path, ``unknowns[0].low`` as
+    ``pendulum.a_m.low``; and a list alone by the argument, ``rates.values`` as ``rates_after``."""
     def path(found: re.Match[str]) -> str:
-        return lists[found[1]][int(found[2])] if found[1] in lists else found[0]
+        name = names.get(found[1], found[0])
+        return name if isinstance(name, str) else name[int(found[2])]
 
     try:
         yield
     except InvalidRequest as error:
         raise InvalidRequest.of(
-            Violation(re.sub(r"^(\w+)\[(\d+)\](?=\.(?!path$))", path, violation.field), violation.description)
+            Violation(re.sub(r"^(\w+)(?:\[(\d+)\](?=\.(?!path$))|\.values)", path, violation.field),
+                      violation.description)
             for violation in error.violations
         ) from None
 

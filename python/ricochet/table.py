@@ -10,6 +10,7 @@ import numpy as np
 from ricochet.names import meanings
 from ricochet.record import Record
 from ricochet.units import unit_of
+from ricochet.values import refuse, suggestion
 
 if TYPE_CHECKING:
     import pandas
@@ -41,8 +42,11 @@ class Codes:
     names: list[str]
     """The name of each number."""
 
-    def __eq__(self, other: object) -> bool:
-        return _is_equal(self, other)
+    def __eq__(self, other: object) -> Any:
+        return self.equal(other) if isinstance(other, str) else _is_equal(self, other)
+
+    def __ne__(self, other: object) -> Any:
+        return ~self.equal(other) if isinstance(other, str) else not _is_equal(self, other)
 
     def __len__(self) -> int:
         return len(self.numbers)
@@ -50,11 +54,10 @@ class Codes:
     @overload
     def __getitem__(self, row: int) -> str: ...
     @overload
-    def __getitem__(self, row: slice) -> list[str]: ...
-    def __getitem__(self, row: int | slice) -> str | list[str]:
-        if isinstance(row, slice):
-            return [self.names[number] for number in self.numbers[row]]
-        return self.names[int(self.numbers[row])]
+    def __getitem__(self, row: slice | NDArray[Any] | list[int]) -> list[str]: ...
+    def __getitem__(self, row: int | slice | NDArray[Any] | list[int]) -> str | list[str]:
+        numbers = self.numbers[row]
+        return [self.names[number] for number in numbers] if np.ndim(numbers) else self.names[int(numbers)]
 
     def counts(self) -> dict[str, int]:
         """Returns how many rows have each name, for the names that occur."""
@@ -62,7 +65,9 @@ class Codes:
         return {self.names[number]: int(count) for number, count in zip(numbers, counts)}
 
     def equal(self, name: str) -> NDArray[np.bool_]:
-        """Returns for each row whether it has this name."""
+        """Returns for each row whether it has this name, as ``codes == name`` does."""
+        if name not in self.names:
+            refuse("name", f"= {name!r} is unknown{suggestion(name, self.names)}")
         equal: NDArray[np.bool_] = self.numbers == self.names.index(name)
         return equal
 

@@ -281,6 +281,53 @@ class Frames(Case):
         self.refused(lambda: ricochet.solve_batch(PENDULUM, columns, NEWTON), "inputs", "different indices")
         observed = dict(zip(["normal_after_m_s", "tangential_after_m_s"], columns.values()))
         self.refused(lambda: ricochet.audit_batch(PENDULUM, observed), "columns", "different indices")
+        rates = {"rates_after": [pandas.Series([0.1, 0.2], [1, 2])], "mu": columns["pendulum.a_m"]}
+        self.refused(lambda: ricochet.audit_batch(PENDULUM, rates), "columns", "different indices")
+        velocity = pandas.Series([0.3, 0.4], [1, 2])
+        for table, sigma in (({"rates_after_rad_s[0]": velocity, "a_m": columns["pendulum.a_m"]}, 1),
+                             ({"rates_after_rad_s[0]": velocity}, columns["pendulum.a_m"])):
+            self.refused(lambda: ricochet.fit(PENDULUM, table, [MU], sigma={"rates_after_rad_s[0]": sigma}), "table",
+                         "different indices")
+        self.refused(lambda: ricochet.sweep(PENDULUM, columns, NEWTON, zip_axes=True), "axes", "different indices")
+        self.assertEqual(len(ricochet.sweep(PENDULUM, columns, NEWTON, form="table")), 4)  # A grid has no rows yet.
+        states = dict(friction=columns[MU], newton=columns["pendulum.a_m"])
+        self.refused(lambda: ricochet.at_contact(np.eye(3), np.eye(3), [0, 0, -1], [0, 0, 1], **states), "friction",
+                     "different indices")
+
+    def test_all_that_a_dataset_says_of_its_rows_counts(self):
+        numbers = {MU: ("row", [0.0, 0.1]), "pendulum.a_m": ("row", [0.3, 0.4])}
+        expected = ricochet.solve_batch(PENDULUM, {name: list(column) for name, (_, column) in numbers.items()}, NEWTON)
+        for moved in ([], [MU], list(numbers)):
+            dataset = xarray.Dataset({"pendulum.b_m": ("row", [1.0, 1.0]), **numbers}).set_coords(moved)
+            found = ricochet.solve_batch({**PENDULUM, "pendulum": {**PENDULUM["pendulum"], "b_m": 1.0}}, dataset, NEWTON)
+            np.testing.assert_array_equal(found.axes[MU], [0, 0.1])
+        again = ricochet.solve_batch(PENDULUM, expected.to_xarray().drop_vars([NEWTON, "regime", "status"]), NEWTON)
+        self.assertEqual(again.axes.keys(), expected.axes.keys())
+        np.testing.assert_array_equal(again[NEWTON], expected[NEWTON])
+        labelled = xarray.Dataset(numbers, {"row": list("xy")})
+        self.assertEqual(list(ricochet.solve_batch(PENDULUM, labelled, NEWTON).to_pandas().index), ["x", "y"])
+        other = xarray.DataArray([0.3, 0.4], dims="drop")
+        self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: labelled[MU], "a_m": other}, NEWTON), "inputs",
+                     "along different dimensions, drop, row")
+        self.refused(lambda: ricochet.solve_batch(PENDULUM, labelled.assign_coords(hue=("row", [1, 2])), NEWTON),
+                     "inputs", "= 'hue'")
+        turned = labelled[MU].assign_coords(row=list("yx"))
+        self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: turned, "a_m": labelled["pendulum.a_m"]}, NEWTON),
+                     "inputs", "different indices")
+
+    def test_codes_are_compared_with_names(self):
+        with self.assertWarns(ricochet.InvalidRows):
+            codes = ricochet.solve_batch(PENDULUM, {MU: [0.0, -0.1, 0.1]}, NEWTON).codes["status"]
+        np.testing.assert_array_equal(codes == "OK", [True, False, True])
+        np.testing.assert_array_equal(codes != "OK", [False, True, False])
+        self.assertEqual(codes[np.array([False, True, False])], ["INVALID"])
+        self.assertEqual(codes[[0, 1]], ["OK", "INVALID"])
+        self.refused(lambda: codes == "OKAY", "name", "'OKAY' is unknown; did you mean 'OK'")
+
+    def test_a_message_has_the_names_of_the_arguments(self):
+        self.refused(lambda: ricochet.bounds(PENDULUM, ranges={"mu": (0.3, 0.1)}), f"{MU}.high")
+        self.refused(lambda: ricochet.audit(PENDULUM, rates_after=[1, 2]), "rates_after", "must have 1")
+        self.refused(lambda: ricochet.audit(PENDULUM, rates_after=[np.nan]), "rates_after[0]")
 
     def test_a_column_of_texts_is_named(self):
         frame = pandas.DataFrame({MU: [0.0, 0.1], "pendulum.a_m": ["a", "b"]})
