@@ -67,6 +67,11 @@ bool KnowsAnEnd(const MultiContactAnswer& answer) {
          (answer.springs.has_value() && has_end(*answer.springs));
 }
 
+bool Strikes(const MultiContactAnswer& answer) {
+  return std::any_of(answer.orders.begin(), answer.orders.end(),
+                     [](const AttainedOutcome& outcome) { return outcome.events > 0; });
+}
+
 std::string VerdictText(const MultiContactAnswer& answer) {
   const bool are_orders =
       !absl::StartsWith(answer.outcome_1, kSprings) && !absl::StartsWith(answer.outcome_2, kSprings);
@@ -75,7 +80,8 @@ std::string VerdictText(const MultiContactAnswer& answer) {
       are_orders ? "orders " : "order ", answer.outcome_1, " and ", answer.outcome_2, ".\n");
   switch (answer.verdict) {
     case MultiContactVerdict::kSingle:
-      return "SINGLE: only one outcome is possible.\n";
+      return Strikes(answer) ? "SINGLE: only one outcome is possible.\n"
+                             : "SINGLE: no contact strikes, and nothing changes.\n";
     case MultiContactVerdict::kOrderMatters:
       return absl::StrCat("ORDER_MATTERS: ", difference);
     case MultiContactVerdict::kOrdersAgreeSpringsDiffer:

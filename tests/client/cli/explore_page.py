@@ -229,6 +229,9 @@ class ExplorePageTest(unittest.TestCase):
         self.open("&".join(["yours", *fields, "mechanism.composite=true", "friction.kinetic_coefficient=0.2",
                             "restitution.newton=0.5"]))
         self.assert_shows_the_answer_of_its_scene()
+        after = self.browser.script("return answers.solve.answer.outcome.rates_after[2]")
+        shown = {row[0]: row[2] for row in self.rows("motion")}
+        self.assertAlmostEqual(number(shown["q′3"]), after, delta=1e-4)
         # All numbers have a slider: those of the mechanism, friction and restitution.
         self.assertEqual(self.browser.script("return document.querySelectorAll('.field').length"), len(fields) + 2)
         self.browser.script("[...document.querySelectorAll('#forms button')].find(b => b.textContent == 'Python')"
@@ -307,7 +310,7 @@ class ExplorePageTest(unittest.TestCase):
     def test_restitution_that_depends_on_the_speed_is_named_as_it_is_there(self):
         self.open_fields({**self.ROD, "friction.kinetic_coefficient": 0.3, "restitution.by_speed.power_law.alpha": 0.5,
                           "restitution.by_speed.power_law.exponent": 1, "restitution.energetic": 0.8})
-        self.assertIn("It takes 0.44 (0.8 at this speed) for the ratio", self.text("#simulator-note"))
+        self.assertIn("It takes 0.8 (0.44 at this speed) for the ratio", self.text("#simulator-note"))
         # What a contact can return does not depend on what the scene states.
         self.assertAlmostEqual(self.browser.script("return Math.max(...columnsOf('elastic').values[2])"), 1, delta=1e-9)
 
@@ -363,6 +366,25 @@ class ExplorePageTest(unittest.TestCase):
         self.assertIn("restitution.newton=0.67", self.browser.script("return location.hash"))
         self.assertEqual(self.text("#leaves").split(" m/s")[0], before)
         self.assert_shows_the_answer_of_its_scene()
+
+    def test_stating_another_coefficient_loses_no_number(self):
+        def choose(law):
+            self.browser.script(f"document.querySelector('input[value={law}]').click()")
+            self.settle()
+            return self.browser.script("return scene.restitution")
+        separating = {**self.ROD, "planar_body.velocity_n_m_s": 3, "restitution.energetic": 0.8}
+        for fields in (separating, {**separating, "friction.kinetic_coefficient": -1}):
+            self.open_fields(fields)
+            self.assertEqual(choose("poisson"), {"poisson": 0.8})
+        self.open_fields({**self.ROD, "restitution.by_speed.power_law.alpha": 0.5, "friction.kinetic_coefficient": 0.3,
+                          "restitution.by_speed.power_law.exponent": 1, "restitution.energetic": 0.8})
+        before = self.text("#leaves").split(" m/s")[0]
+        self.assertEqual(choose("newton")["by_speed"], {"power_law": {"alpha": 0.5, "exponent": 1}})
+        self.assertEqual(self.text("#leaves").split(" m/s")[0], before)
+        self.open("planar_contact")
+        self.browser.script("put(MU, 0.2); document.querySelector('input[value=poisson]').click()")  # No answer yet.
+        self.settle()
+        self.assertEqual(self.browser.script("return scene.restitution.poisson"), 1)
 
     def test_the_address_holds_the_scene(self):
         self.open("planar_body")
