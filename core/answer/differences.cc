@@ -89,6 +89,13 @@ bool Contradicts(const Estimate& shorter, const Estimate& best) {
          std::isfinite(shorter.rate);
 }
 
+bool Agree(const Estimate& x, const Estimate& y, double errors) {
+  const double rounding = 0x1p-40 * (std::fabs(x.rate) + std::fabs(y.rate));
+  return std::isfinite(x.error + y.error) && std::fabs(x.rate - y.rate) <= errors * (x.error + y.error) + rounding;
+}
+
+const Estimate& BetterOf(const Estimate& x, const Estimate& y) { return IsBetter(x, y) ? x : y; }
+
 // --- Both sides of a number ---
 
 class Sides {
@@ -97,7 +104,8 @@ class Sides {
       : source_(source),
         line_(line),
         one_sided_{std::vector<Estimate>(count), std::vector<Estimate>(count)},
-        central_(count) {}
+        central_(count),
+        steps_(count) {}
 
   // Returns false once the source is stopped.
   bool Explore() {
@@ -118,29 +126,46 @@ class Sides {
 
   Derivative At(size_t i) const {
     const OneSided below = LimitOf(0, i), above = LimitOf(1, i);
-    bool agree = false;
-    if (below.rate.has_value() && above.rate.has_value()) {
-      const double rounding = 0x1p-40 * (std::fabs(*below.rate) + std::fabs(*above.rate));
-      agree = std::fabs(*below.rate - *above.rate) <= 4.0 * (*below.error + *above.error) + rounding;
+    const bool have_both = below.rate.has_value() && above.rate.has_value();
+    const std::optional<Estimate> common = have_both ? CommonOf(i) : std::nullopt;
+    Derivative derivative = Join(below, above, common.has_value(), ThresholdHere());
+    if (common.has_value()) {
+      derivative.value = derivative.from_below = derivative.from_above = common->rate + 0.0;
+      derivative.error = kMargin * common->error;
+    } else if (derivative.kind == DerivativeKind::kOneSided) {
+      derivative.error = kMargin * std::max(below.error.value_or(0.0), above.error.value_or(0.0));
     }
-    Derivative derivative = Join(below, above, agree, ThresholdHere());
-    if (!agree) {
-      if (derivative.kind == DerivativeKind::kOneSided) {
-        derivative.error = kMargin * std::max(below.error.value_or(0.0), above.error.value_or(0.0));
-      }
-      return derivative;
-    }
-    Estimate best = central_[i];
-    for (const auto& side : one_sided_) {
-      if (IsBetter(side[i], best)) best = side[i];
-    }
-    derivative.value = derivative.from_below = derivative.from_above = best.rate + 0.0;
-    derivative.error = kMargin * best.error;
     return derivative;
   }
 
  private:
   static double Sign(size_t side) { return side == 0 ? -1.0 : 1.0; }
+
+  // True if no threshold is at the number itself, as far as courses tell: both sides have one derivative then.
+  bool IsInside() const {
+    const auto is_here = [this](const auto& beside) { return beside && beside->course == source_.here().course; };
+    return std::all_of(beside_.begin(), beside_.end(), is_here);
+  }
+
+  // A threshold may be so near that no step fits before it. The other side then tells the derivative that both have.
+  size_t SideFor(size_t side) const { return has_neighbours_[side] || !IsInside() ? side : 1 - side; }
+  const Estimate& EstimateOn(size_t side, size_t i) const { return one_sided_[SideFor(side)][i]; }
+
+  // The derivative on both sides, unless each has its own.
+  std::optional<Estimate> CommonOf(size_t i) const {
+    const Estimate &below = EstimateOn(0, i), &above = EstimateOn(1, i);
+    if (Agree(below, above, kContradiction)) return BetterOf(central_[i], BetterOf(below, above));
+    // One of them may have stepped over a bend that its course does not tell.
+    Estimate best;
+    for (const auto& [x, y] : steps_[i]) {
+      if (IsInside() && Agree(x, y, kContradiction)) best = BetterOf(best, x.error > y.error ? x : y);
+    }
+    if (std::isfinite(best.error)) return best;
+    if (!Agree(below, above, kMargin)) return std::nullopt;
+    best = BetterOf(below, above);
+    best.error = std::max(best.error, std::fabs(below.rate - above.rate) / kMargin);
+    return best;
+  }
 
   // `is_one_course` says that all neighbours follow the course beside the scene.
   bool SetNeighbours(size_t side, double step, bool& is_one_course) {
@@ -158,8 +183,7 @@ class Sides {
     static const Weights one_sided = WeightsBy(OneSidedWeights);
     static const Weights central = WeightsBy(CentralWeights);
     const Sample& here = source_.here();
-    const bool is_smooth =
-        is_one_course[0] && is_one_course[1] && beside_[0]->course == here.course && beside_[1]->course == here.course;
+    const bool is_smooth = is_one_course[0] && is_one_course[1] && IsInside();
     bool goes_on = false;
     const auto improve = [&goes_on](Estimate& best, const Estimate& next) {
       const bool replaces = IsBetter(next, best) || Contradicts(next, best);
@@ -168,13 +192,18 @@ class Sides {
     };
     for (size_t i = 0; i < central_.size(); ++i) {
       std::array<double, kNeighbours> changes;
+      std::array<Estimate, 2> pair;
       for (const size_t side : kSides) {
         if (!is_one_course[side]) continue;
         for (size_t j = 0; j < kNeighbours; ++j) changes[j] = neighbours_[side][j]->value[i] - here.value[i];
         const Estimate next = EstimateOf(changes, one_sided, Noise(side, i), Sign(side) * step, line_.unit());
         improve(one_sided_[side][i], next);
+        has_neighbours_[side] = true;
+        pair[side] = next;
       }
       if (!is_smooth) continue;
+      steps_[i].push_back(pair);
+      goes_on |= !Agree(one_sided_[0][i], one_sided_[1][i], kContradiction);
       for (size_t j = 0; j < kNeighbours; ++j) {
         changes[j] = 0.5 * (neighbours_[1][j]->value[i] - neighbours_[0][j]->value[i]);
       }
@@ -194,13 +223,14 @@ class Sides {
     if (!beside_[side].has_value()) return {.why_none = "the scene would break a rule"};
     const double here = source_.here().value[i], beside = beside_[side]->value[i];
     if (std::isnan(here) || std::isnan(beside)) return {.why_none = "there is no such number"};
-    const double rate = one_sided_[side][i].rate, error = one_sided_[side][i].error;
+    const auto& [rate, error, is_cut_off] = EstimateOn(side, i);
     const double change = std::fabs(beside - here);
     // A number that is 0 here may change by more than its size, at the rate of its neighbours.
     const bool goes_on = change <= 2.0 * (std::fabs(rate) + error) * kBeside * line_.unit() && std::isfinite(error);
     if (change > kJump * std::max(std::fabs(beside), source_.scale(i)) && !goes_on) {
       return {.why_none = "the number jumps"};
     }
+    if (!has_neighbours_[SideFor(side)]) return {.why_none = "a threshold lies too near to tell the derivative"};
     constexpr double kVague = 0.1;
     constexpr double kNegligible = 1e-4;
     const double negligible = kNegligible * source_.scale(i) / line_.unit();
@@ -222,7 +252,9 @@ class Sides {
   std::array<std::optional<Sample>, 2> beside_;  // Below, above.
   std::array<std::array<std::optional<Sample>, kNeighbours>, 2> neighbours_;
   std::array<std::vector<Estimate>, 2> one_sided_;
+  std::array<bool, 2> has_neighbours_ = {};  // Some step stayed on the course of the side.
   std::vector<Estimate> central_;
+  std::vector<std::vector<std::array<Estimate, 2>>> steps_;  // Of each step that leaves no side's course.
 };
 
 }  // namespace

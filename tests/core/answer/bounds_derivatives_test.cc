@@ -99,6 +99,46 @@ TEST(BoundsDerivativesTest, EndsInAPlaneMoveAsTheImpactsThatReachThem) {
   EXPECT_GT(compared, 1100);
 }
 
+// Where slip stops just before or behind the end that energy allows; values of 50 digits.
+TEST(BoundsDerivativesTest, AKinkNearbyIsNotSteppedOver) {
+  struct Case {
+    PlanarContact contact;
+    double mu;
+    std::string of, by;
+    double exact;
+  };
+  const PlanarContact steep = {6.449005946682667, -4.1749519537457, 4.185789901407973, -3.6365151494193984,
+                               -1.4513833641155771};
+  const PlanarContact level = {0.4403488839787537, 0.0, 0.6114968693899864, -0.049550688638391314,
+                               -0.48491453947146557};
+  for (const Case& one :
+       std::vector<Case>{{steep, 0.7520194099090497, "energy_only.normal_total_n_s.upper", kMu, 0.0},
+                         {steep, 0.7520194099090497, "energy_only.poisson.upper", kMu, -15.5011370144},
+                         {level, 0.07069456606304128, "energy_only.normal_total_n_s.upper",
+                          "planar_contact.w_tn_per_kg", -0.36671473269082244}}) {
+    const Scene scene = {.system = one.contact, .friction = {.kinetic_coefficient = one.mu}};
+    const Derivative found = Only(scene, one.of, one.by);
+    ASSERT_TRUE(found.value.has_value()) << one.of << ": " << found.reason;
+    EXPECT_NEAR(*found.value, one.exact, *found.error + 1e-10) << one.of;
+    EXPECT_LT(*found.error, 1e-4) << one.of;
+  }
+}
+
+// critical.stick does not depend on friction, nor does the largest energetic coefficient, 1.
+TEST(BoundsDerivativesTest, AThresholdNearbyIsNone) {
+  for (double distance = 0x1p-20; distance > 0x1p-43; distance /= 2) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Scene scene = {.system = PlanarContact{1.0, 0.0, 1.0, 0.5 * (1.0 + sign * distance), -1.0},
+                           .friction = {.kinetic_coefficient = 0.5}};
+      for (const char* const of : {"critical.stick", "sharp.energetic.upper"}) {
+        const Derivative found = Only(scene, of, kMu);
+        EXPECT_EQ(found.kind, DerivativeKind::kTwoSided) << of << ", " << sign * distance << ": " << found.reason;
+        EXPECT_EQ(found.value.value_or(1.0), 0.0) << of;
+      }
+    }
+  }
+}
+
 TEST(BoundsDerivativesTest, ImpulseOfABallInSpaceFollowsItsSpeed) {
   const Scene scene = {.system = SpatialContact{{1.0, 0.0, 0.0, 1.0, 0.0, 0.5}, {0.3, 0.4}, -2.0},
                        .friction = {.kinetic_coefficient = 0.1}};

@@ -308,6 +308,43 @@ TEST(DifferencesTest, SlipThatStopsJustAtTheEndHasTwoSides) {
   EXPECT_NEAR(*d.from_above, 0.0, 1e-9);
 }
 
+// By Newton's law slip stops at the end where u0 = (mu Wtt - Wtn) tau, tau = (1 + e)|v0| / Wnn.
+TEST(DifferencesTest, AThresholdNearbyHidesNoDerivative) {
+  int found_two_sided = 0;
+  for (double distance = 0x1p-20; distance > 0x1p-43; distance /= 2) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Scene scene = {.system = PlanarContact{2.0, 0.5, 1.0, 0.75 * (1.0 + sign * distance), -1.0},
+                           .friction = {.kinetic_coefficient = 0.5},
+                           .restitution = NewtonCoefficient{0.5}};
+      const DerivativePaths paths = {.of = AllDerivativePaths(scene).of,
+                                     .by = {kMu, "planar_contact.tangential_m_s", "restitution.newton"}};
+      const std::vector<Derivative> exact = ExactDerivativesOf(scene, paths);
+      const std::vector<Derivative> found = Differences(scene, paths);
+      for (size_t k = 0; k < exact.size(); ++k) {
+        if (exact[k].kind != DerivativeKind::kTwoSided) continue;
+        ASSERT_EQ(found[k].kind, DerivativeKind::kTwoSided)
+            << exact[k].of << " by " << exact[k].by << ", " << sign * distance << ": " << found[k].reason;
+        EXPECT_NEAR(*found[k].value, *exact[k].value, *found[k].error + 1e-12) << exact[k].of << " by " << exact[k].by;
+        ++found_two_sided;
+      }
+    }
+  }
+  EXPECT_GT(found_two_sided, 1'000);
+}
+
+// Slip on a tangential spring starts at |u0| = mu ratio^2 |v0|. The velocity has one slope there, which it approaches as
+// the root of the distance; quotients of 50 digits, extrapolated, give 0.1661296698 on both sides.
+TEST(DifferencesTest, SidesThatDifferByLessThanTheirErrorsAreOne) {
+  const Scene scene = {.system = PlanarContact{2.0, 0.5, 1.0, 0.625, -1.0},
+                       .friction = {.kinetic_coefficient = 0.5},
+                       .restitution = EnergeticCoefficient{0.8},
+                       .compliance = Compliance{.tangential_ratio_squared = 1.25}};
+  const Derivative found = Only(scene, "contact_velocity_after.normal_m_s", "planar_contact.tangential_m_s");
+  EXPECT_EQ(found.kind, DerivativeKind::kTwoSided) << found.reason;
+  EXPECT_NEAR(found.value.value_or(0.0), 0.1661296698, found.error.value_or(0.0));
+  EXPECT_LT(found.error.value_or(1.0), 1e-3);
+}
+
 TEST(DifferencesTest, SlipThatWouldStartIsNamed) {
   Scene scene = BallOnCushion();
   scene.system = SpatialContact{{4.0, 0.0, 2.0, 4.0, 0.0, 4.0}, {0.0, 0.0}, -1.0};
