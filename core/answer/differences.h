@@ -4,7 +4,7 @@
 // A polynomial through the values at the scene and at six neighbours on a side, or on both, is differentiated. Steps
 // shrink until the error stops falling. It is estimated: what the farthest neighbours change, and the errors of the
 // values over the step. Neighbours on a side must share one course of the impact, that of a scene next to this one;
-// so a threshold at the number keeps its sides apart, and one nearby makes steps shorter, or leaves its side to the other.
+// so a threshold at the number keeps its sides apart. One nearby makes steps shorter, or leaves its side to the other.
 // docs/theory/derivatives.md says more.
 
 #ifndef RICOCHET_CORE_ANSWER_DIFFERENCES_H_

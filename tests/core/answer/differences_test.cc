@@ -332,8 +332,8 @@ TEST(DifferencesTest, AThresholdNearbyHidesNoDerivative) {
   EXPECT_GT(found_two_sided, 1'000);
 }
 
-// Slip on a tangential spring starts at |u0| = mu ratio^2 |v0|. The velocity has one slope there, which it approaches as
-// the root of the distance; quotients of 50 digits, extrapolated, give 0.1661296698 on both sides.
+// Slip on a tangential spring starts at |u0| = mu ratio^2 |v0|. The velocity has one slope there, which it approaches
+// as the root of the distance; quotients of 50 digits, extrapolated, give 0.1661296698 on both sides.
 TEST(DifferencesTest, SidesThatDifferByLessThanTheirErrorsAreOne) {
   const Scene scene = {.system = PlanarContact{2.0, 0.5, 1.0, 0.625, -1.0},
                        .friction = {.kinetic_coefficient = 0.5},
