@@ -254,9 +254,10 @@ def limits_of(case, after, tolerance):
     worst = int(np.argmax(-speeds - allowances))
     limits['approach'] = check(speeds[worst], -speeds[worst], allowances[worst])
     left = outside_cones(case, change)
-    # Errors of the tolerance in all velocities make no longer vector.
-    allowance = ROUNDING * np.linalg.norm(case.before) + tolerance * math.sqrt(len(after))
-    limits['cone'] = check(np.abs(left).max(), np.linalg.norm(left), allowance)
+    # Any impulse within the cones leaves a vector whose product with `left` is left @ left or more.
+    least = left @ left / (np.abs(left).sum() or 1.0)
+    allowance = ROUNDING * (np.linalg.norm(case.before) + np.linalg.norm(after)) + tolerance
+    limits['cone'] = check(np.abs(left).max(), least, allowance)
     differences = [abs(after[i] - math.copysign(1, place) * after[abs(place) - 1])
                    for symmetry in case.symmetries for i, place in enumerate(symmetry)]
     largest = max(differences, default=0.0)
@@ -278,12 +279,15 @@ def grade_case(case, after, law, tolerance):
             'other_order': other, **limits}
 
 
-def commonest_law(cases, answers, tolerance):
+def nearest_law(cases, answers, tolerance):
+    """Returns the law that answers come nearest to most often; all within the tolerance are as near."""
     counts = dict.fromkeys(LAWS, 0)
     for name, (_, after) in answers.items():
-        for law in grade_case(cases[name], after, '', tolerance)['obeyed']:
-            if law in counts:
-                counts[law] += 1
+        errors = grade_case(cases[name], after, '', tolerance)['errors']
+        nearest = max(tolerance, min(errors.values()))
+        for law, also, _ in cases[name].answers:
+            for each in (law, *also) if errors[law] <= nearest else ():
+                counts[each] = counts.get(each, 0) + 1
     return max(reversed(LAWS), key=counts.get)
 
 
@@ -358,7 +362,7 @@ def laws_text(graded, general, found):
     differ = any(grade and len(case.friction) == 1 and grade['law'] != general for case, grade in graded)
     if not found:
         return 'the laws that the answers state' if differ else LAW_TEXT[general]
-    return ('the laws that answers state, else by ' if differ else '') + LAW_TEXT[general] + ', which most answers obey'
+    return ('the laws that answers state, else by ' if differ else '') + LAW_TEXT[general] + ', which answers come nearest to'
 
 
 def main():
@@ -382,7 +386,7 @@ def main():
              or not options.family and not options.case]
     laws = [law for name, (law, _) in answers.items() if len(cases[name].friction) == 1]  # A law counts at one contact.
     stated = options.law or (laws[0] if laws and all(laws) else '')
-    general = stated or commonest_law(cases, answers, options.tolerance)
+    general = stated or nearest_law(cases, answers, options.tolerance)
     graded = []
     for case in asked:
         law, after = answers.get(case.name, ('', None))

@@ -126,9 +126,11 @@ VectorXd OutsideCones(const ConformanceCase& one, const VectorXd& change) {
 
 LimitCheck ConeCheck(const ConformanceCase& one, const VectorXd& after, double tolerance) {
   const VectorXd left = OutsideCones(one, after - one.before);
-  // Errors of the tolerance in all velocities make no longer vector.
-  const double allowance = kRounding * one.before.norm() + tolerance * std::sqrt(static_cast<double>(after.size()));
-  return Check(Largest(left), left.norm(), allowance);
+  // Since `left` is perpendicular to the nearest impulse and at least at a right angle to all others, each of them leaves
+  // a vector whose product with `left` is left^2 or more, and so some velocity of at least left^2 / |left|_1.
+  const double sum = left.lpNorm<1>();
+  const double least = sum > 0.0 ? left.squaredNorm() / sum : 0.0;
+  return Check(Largest(left), least, kRounding * (one.before.norm() + after.norm()) + tolerance);
 }
 
 LimitCheck SymmetryCheck(const ConformanceCase& one, const VectorXd& after, double tolerance) {
@@ -178,11 +180,19 @@ CaseGrade GradeCase(const SimulatorAnswer& answer, const std::string& law, doubl
   return grade;
 }
 
-// Returns the law that most answers obey at one contact. Where several do as often, the last of them.
-std::string CommonestLaw(const SimulatorAnswers& answers, double tolerance) {
+// Returns the law that answers at one contact come nearest to most often; all within the tolerance are as near. Where
+// several are as often, the last of them.
+std::string NearestLaw(const SimulatorAnswers& answers, double tolerance) {
   std::map<std::string, int> counts;
   for (const SimulatorAnswer& answer : answers.answers) {
-    for (const std::string& law : GradeCase(answer, "", tolerance).obeyed) ++counts[law];
+    const std::vector<double> errors = GradeCase(answer, "", tolerance).errors;
+    const double nearest = std::max(tolerance, *std::min_element(errors.begin(), errors.end()));
+    for (size_t i = 0; i < errors.size(); ++i) {
+      const RightAnswer& right = answer.asked->answers[i];
+      if (errors[i] > nearest) continue;
+      ++counts[right.law];
+      for (const std::string& law : right.also) ++counts[law];
+    }
   }
   std::string commonest = kConformanceLaws.front();
   for (const std::string& law : kConformanceLaws) {
@@ -207,7 +217,7 @@ Grade GradeOf(const SimulatorAnswers& answers, const GradeDemand& demand) {
     if (grade.law.empty()) grade.law = answer.law;
   }
   grade.law_found = demand.law.empty() && (!all_state || grade.law.empty());
-  if (grade.law_found) grade.law = CommonestLaw(answers, demand.tolerance);
+  if (grade.law_found) grade.law = NearestLaw(answers, demand.tolerance);
   for (const ConformanceCase* asked : demand.asked) {
     const auto found = std::find_if(answers.answers.begin(), answers.answers.end(),
                                     [&](const SimulatorAnswer& answer) { return answer.asked == asked; });

@@ -33,7 +33,7 @@ struct CaseGrade {
   std::vector<std::string> obeyed;  // All laws, orders or springs within the tolerance.
   bool other_order = false;         // The numbers are those of a right answer, but in another order.
   // `energy` is in J; `approach` in m/s. The value of `cone` is the largest velocity, in m/s or rad/s, that the nearest
-  // impulse within the cones leaves unexplained, and its excess the root of the sum of all their squares.
+  // impulse within the cones leaves unexplained, and its excess a bound that any impulse within them exceeds.
   // The value of `symmetry` is the largest difference to the mirror image. Broken limits are Verdict::kBroken.
   LimitCheck energy, approach, cone, symmetry;
 };
@@ -42,15 +42,15 @@ struct Grade {
   GradeDemand demand;
   std::string simulator;
   std::string law;         // The law that most cases are judged by, and
-  bool law_found = false;  // whether it was found as the one that most answers obey.
+  bool law_found = false;  // whether it was found as the one that answers come nearest to.
   std::vector<CaseGrade> cases;
 
   int RightCases() const;
   bool AllRight() const { return RightCases() == static_cast<int>(cases.size()); }
 };
 
-// The law of the demand; else each answer's own; those without one are judged by the one that most answers of one
-// contact obey.
+// The law of the demand; else each answer's own; those without one are judged by the one that answers of one contact
+// come nearest to most often.
 Grade GradeOf(const SimulatorAnswers& answers, const GradeDemand& demand);
 
 }  // namespace ricochet::cli

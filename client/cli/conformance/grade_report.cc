@@ -126,7 +126,8 @@ std::string LawsText(const Grade& grade) {
   });
   const std::string general = LawText(grade.law);
   if (!grade.law_found) return differ ? "the laws that the answers state" : general;
-  return absl::StrCat(differ ? "the laws that answers state, else by " : "", general, ", which most answers obey");
+  return absl::StrCat(differ ? "the laws that answers state, else by " : "", general,
+                      ", which answers come nearest to");
 }
 
 std::string Heading(const Grade& grade) {
