@@ -79,12 +79,28 @@ absl::Status CheckResiduals(const FitRequest& request, const FitResponse& respon
 // Fits one request.
 class Fitter {
  public:
-  Fitter(const Problem& problem, Model& model)
-      : problem_(problem), model_(model), all_free_(problem.unknowns(), true) {}
+  // `model` is that of the problem, whose scales change if the fit has others than the start.
+  Fitter(Problem& problem, Model& model) : problem_(problem), model_(model), all_free_(problem.unknowns(), true) {}
 
   FitResponse Fit() {
-    for (int number = 0; number < problem_.starts; ++number) SearchFrom(StartOf(problem_, number), number);
+    Search();
+    if (!model_.is_stopped() && Rescale()) {
+      const Minimum before = best_;
+      response_.starts.clear();
+      Search();
+      SearchFurther(before.at);
+    }
     if (model_.is_stopped()) return {};  // There may be no fit yet to look at.
+    for (int restart = 0; FollowUnknowns(restart < kMostRestarts) && !model_.is_stopped(); ++restart) Look();
+    FollowRegion();
+    Judge(problem_, best_.at, information_, model_, response_);
+    return std::move(response_);
+  }
+
+ private:
+  void Search() {
+    for (int number = 0; number < problem_.starts; ++number) SearchFrom(StartOf(problem_, number), number);
+    if (model_.is_stopped()) return;
     Look();
     LookAround(problem_.start);
     for (int look = 0; look < kMostLooks && LookAround(best_.at); ++look) continue;
@@ -93,18 +109,30 @@ class Fitter {
         if (IsRefused()) SearchFurther(start);
       }
     }
-    for (int restart = 0; FollowUnknowns(restart < kMostRestarts) && !model_.is_stopped(); ++restart) Look();
-    FollowRegion();
-    Judge(problem_, best_.at, information_, model_, response_);
-    return std::move(response_);
   }
 
- private:
+  // Steps and tolerances follow the sizes of the unknowns, which a start far from the fit does not tell. Returns true if
+  // the fit has shown an unknown to be much smaller, beyond its error.
+  bool Rescale() {
+    constexpr double kMuchSmaller = 1e-2;
+    bool changes = false;
+    for (size_t k = 0; k < problem_.unknowns(); ++k) {
+      if (!information_.is_seen[k]) continue;
+      const double sigma = std::sqrt(information_.covariance[k * problem_.unknowns() + k]);
+      const double size = std::max(std::fabs(best_.at[k]), sigma);
+      if (!(size > 0.0 && size < kMuchSmaller * problem_.scale[k])) continue;
+      problem_.scale[k] = size;
+      changes = true;
+    }
+    return changes;
+  }
+
   // Returns true if the fit is the best so far.
   bool SearchFrom(const std::vector<double>& start, int number) {
     if (model_.is_stopped()) return false;
     Minimum found = Minimize(start, all_free_, kFineSearch, model_);
     Approach(start, model_, found);
+    minima_.push_back(found);
     const bool is_best = number == 0 || found.objective < best_.objective - kAsGood;
     // The response lists a further start, which the request did not ask for, only if it led to a better fit.
     const bool has_gained = is_best && found.objective < (1.0 - kLeastGain) * best_.objective;
@@ -176,8 +204,10 @@ class Fitter {
       estimate.profile.push_back({best_.at[k], 0.0});
       for (const double side : {-1.0, 1.0}) {
         const Direction direction = Towards({{k, side}});
-        const RayEnd end = EndOfRay(best_, direction, kFitRiseOfInterval * information_.rise, kPlaces, model_);
+        const double rise = kFitRiseOfInterval * information_.rise;
+        RayEnd end = EndOfRay(best_, direction, rise, kPlaces, model_);
         if (end.better.has_value() && may_restart) return Adopt(*end.better);
+        Extend(k, direction, rise, end);
         SetEnd(end, direction.step[k], side < 0.0 ? estimate.low : estimate.high, estimate);
       }
       estimate.seen =
@@ -186,6 +216,21 @@ class Fitter {
                 [](const FitProfilePoint& a, const FitProfilePoint& b) { return a.value < b.value; });
     }
     return false;
+  }
+
+  // Carries an end on to that of another minimum beyond it, if that one fits nearly as well.
+  void Extend(size_t k, const Direction& direction, double rise, RayEnd& end) {
+    for (const Minimum& other : minima_) {
+      const double gap = other.objective - best_.objective;
+      const double distance = (other.at[k] - best_.at[k]) / direction.step[k];
+      if (!(gap < rise && distance > end.distance)) continue;
+      const RayEnd further = EndOfRay(other, direction, rise - gap, 0, model_);
+      end.kind = further.kind;
+      end.distance = distance + further.distance;
+      for (const RayPoint& point : further.computed) {
+        end.computed.push_back({distance + point.distance, gap + point.rise});
+      }
+    }
   }
 
   bool Adopt(const Minimum& better) {
@@ -234,10 +279,11 @@ class Fitter {
     }
   }
 
-  const Problem& problem_;
+  Problem& problem_;
   Model& model_;
   const std::vector<bool> all_free_;
   Minimum best_;
+  std::vector<Minimum> minima_;  // All that searches have found.
   Information information_;
   FitResponse response_;
 };
@@ -248,7 +294,7 @@ class Fitter {
 
 absl::StatusOr<FitResponse> FitScene(const FitRequest& request, fit::OpenRows open_rows,
                                      absl::FunctionRef<bool()> stopped) {
-  const absl::StatusOr<fit::Problem> problem = fit::CheckFit(request);
+  absl::StatusOr<fit::Problem> problem = fit::CheckFit(request);
   if (!problem.ok()) return problem.status();
   fit::Model model(*problem, open_rows(problem->batch), stopped);
   if (absl::Status bad = fit::CheckStart(request, model); !bad.ok()) return bad;

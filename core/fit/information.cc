@@ -14,7 +14,8 @@ namespace ricochet::fit {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-// Derivatives by differences are right to some 1e-7 of the numbers, so a slope below this part of them counts as 0.
+// Derivatives by differences are right to some 1e-7 of the numbers, so a slope below this part of them counts as 0. Those
+// of a measured column count apart, as it may be far more exact than another; but not one that is 0 beside the others.
 constexpr double kNothing = 1e-6;
 // An unknown with a smaller part of a combination that is not seen is seen by itself.
 constexpr double kLeastPart = 1e-3;
@@ -54,7 +55,9 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   const auto count = static_cast<Eigen::Index>(problem.numbers.size());
   const auto size = static_cast<Eigen::Index>(problem.unknowns());
   Eigen::MatrixXd slopes(count, size);
-  double numbers = 0.0;                                // The length of the numbers in sigmas.
+  // The lengths of the numbers of each column in sigmas, and of their slopes.
+  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.batch.columns.size()));
+  Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(numbers.size(), size);
   double chi2 = 0.0, weights = 0.0;                    // Sums.
   Eigen::VectorXd fall = Eigen::VectorXd::Zero(size);  // Half the fall of the objective by each unknown.
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -62,13 +65,15 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
     const auto number = static_cast<size_t>(i);
     const double residual = residuals.values[number];
     const double measured = problem.numbers[number].value / residuals.sigmas[number];
-    numbers = Hypot(numbers, std::max(std::fabs(measured - residual), std::fabs(measured)));
+    const auto column = static_cast<Eigen::Index>(problem.numbers[number].column);
+    numbers[column] = Hypot(numbers[column], std::max(std::fabs(measured - residual), std::fabs(measured)));
     const double weight = LossOf(problem, residual * residual).weight;
     chi2 += residual * residual;
     weights += weight;
     for (Eigen::Index k = 0; k < size; ++k) {
       const double slope = residuals.slopes[number * problem.unknowns() + static_cast<size_t>(k)];
       slopes(i, k) = slope * std::sqrt(weight);
+      changes(column, k) = Hypot(changes(column, k), slopes(i, k));
       fall[k] -= weight * residual * slope;
     }
   }
@@ -76,12 +81,13 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   const auto end_of_numbers = residuals.values.begin() + count;
   std::for_each(end_of_numbers, residuals.values.end(), [&](double residual) { chi2 += residual * residual; });
   Eigen::VectorXd lengths = slopes.colwise().norm().transpose();
+  const Eigen::ArrayXd least = kNothing * numbers.array().max(kNothing * numbers.stableNorm());
   Information information = {.chi2 = chi2, .is_seen = std::vector<bool>(problem.unknowns(), true)};
   information.row_shares.resize(problem.unknowns());
   for (Eigen::Index k = 0; k < size; ++k) {
     const auto unknown = static_cast<size_t>(k);
     const double scale = std::max(problem.scale[unknown], std::fabs(at[unknown]));
-    const bool is_nothing = !(lengths[k] * scale > kNothing * numbers);
+    const bool is_nothing = !(changes.col(k).array() * scale > least).any();
     if (!is_nothing) information.row_shares[unknown] = SharesOf(problem, slopes.col(k));
     information.is_seen[unknown] = !is_nothing;
     slopes.col(k) *= is_nothing ? 0.0 : 1.0 / lengths[k];

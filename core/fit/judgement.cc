@@ -224,7 +224,9 @@ void SetNotes(const Problem& problem, const Information& information, FitRespons
                                  "there; the intervals do."));
   }
   if (response.starts_differ) {
-    notes.emplace_back("Searches from different starts ended in different places; the best of them is the answer.");
+    notes.emplace_back(
+        "Searches from different starts ended in different places; the best of them is the answer. "
+        "Intervals reach over the others that fit within their rise.");
   }
   if (!response.exact_derivatives) {
     notes.push_back(absl::StrCat("Derivatives are central differences, because of ", response.why_differences, "."));

@@ -48,7 +48,7 @@ class Ray {
       const double distance = (bound - best.at[k]) / step_[k];
       if (!(distance < longest_)) continue;
       longest_ = distance;
-      at_bound_ = kEndTolerance * problem.scale[k] / std::fabs(step_[k]);
+      at_bound_ = kEndTolerance * std::min(distance, problem.scale[k] / std::fabs(step_[k]));
     }
     longest_ = std::max(longest_, 0.0);
   }

@@ -337,6 +337,82 @@ TEST(FitTest, AnEstimateThatRunsOffKeepsItsFiniteEnd) {
   EXPECT_NEAR(ChiSquaredAt(request, {*low.value}) - ChiSquaredAt(request, {1e9}), 3.841458820694124, 1e-3);
 }
 
+// The contact slides: u1 = u0 - mu (1 + e) |v0| Wtt, which tells mu to sigma / (Wtt (1 + e) |v0|) whatever the start.
+TEST(FitTest, AStartFarFromTheFitChangesNoInterval) {
+  for (const auto& [start, high] : {std::pair(1e-3, 1.0), {0.0, 100.0}, {500.0, 1e9}}) {
+    const FitRequest request = {
+        .scene = {.system = PlanarContact{2.0, 0.0, 1.0, 1.0, -1.0}, .restitution = NewtonCoefficient{1.0}},
+        .unknowns = {{.path = "friction.kinetic_coefficient", .start = start, .high = high}},
+        .measured = {{"contact_velocity_after.tangential_m_s[0]", {0.996 - 2e-6, 0.996 + 2e-6}, {4e-6}}}};
+    const FitEstimate found = Fit(request, Never)->unknowns[0];
+    const double sigma = 1e-6 / std::sqrt(2.0);
+    EXPECT_NEAR(found.value, 1e-3, 1e-12) << start;
+    EXPECT_NEAR(found.sigma.value_or(0.0), sigma, 1e-12) << start;
+    ASSERT_EQ(found.low.kind, FitEndKind::kFound) << start;
+    EXPECT_NEAR(*found.low.value, 1e-3 - std::sqrt(3.841458820694124) * sigma, 1e-10) << start;
+    EXPECT_NEAR(found.high.value.value_or(0.0), 1e-3 + std::sqrt(3.841458820694124) * sigma, 1e-10) << start;
+  }
+}
+
+// T = pi sqrt(m / k) for a contact that gives everything back, so that k = pi^2 m / T^2.
+TEST(FitTest, AStiffnessIsFoundFromAnyStart) {
+  const double right = std::numbers::pi * std::numbers::pi * 0.5 / 4e-6;
+  for (const double start : {1.0, 1e6, 1e13}) {
+    const FitRequest request = {.scene = {.system = PlanarContact{3.0, 0.0, 2.0, 0.0, -1.0},
+                                          .restitution = EnergeticCoefficient{1.0},
+                                          .compliance = Compliance{.normal = LinearSpring{.stiffness_n_m = start}}},
+                                .unknowns = {{.path = "compliance.linear.stiffness_n_m"}},
+                                .measured = {{"contact.duration_s", {0.002, 0.00202, 0.00198}, {4e-5}}}};
+    const FitResponse response = *Fit(request, Never);
+    const FitEstimate& found = response.unknowns[0];
+    EXPECT_NEAR(found.value, right, 1e-5 * right) << start;
+    ASSERT_EQ(found.low.kind, FitEndKind::kFound) << start;
+    const double chi2 = ChiSquaredAt(request, {*found.low.value}) - response.chi2;
+    EXPECT_NEAR(chi2, 3.841458820694124, 1e-2) << start;
+    EXPECT_TRUE(response.thresholds.empty()) << start;
+  }
+}
+
+// The normal velocity tells the coefficient, the tangential one the friction, however exact the former is.
+TEST(FitTest, AnExactColumnHidesNoOther) {
+  for (const double sigma : {1e-2, 1e-6, 1e-10}) {
+    const FitRequest request = {
+        .scene = {.system = PlanarContact{2.0, 0.0, 1.0, 1.0, -1.0},
+                  .friction = {.kinetic_coefficient = 0.1},
+                  .restitution = NewtonCoefficient{0.5}},
+        .unknowns = {{.path = "friction.kinetic_coefficient"}, {.path = "restitution.newton"}},
+        .measured = {{"contact_velocity_after.tangential_m_s[0]", {0.6, 0.8}, {0.1}},
+                     {"contact_velocity_after.normal_m_s", {0.5 - sigma, 0.5 + sigma}, {sigma}}}};
+    const FitResponse response = *Fit(request, Never);
+    EXPECT_EQ(response.degrees_of_freedom, 2) << sigma;
+    EXPECT_NEAR(response.chi2, 4.0, 1e-5) << sigma;
+    EXPECT_NEAR(response.unknowns[0].value, 0.1, 1e-6) << sigma;
+    EXPECT_NEAR(response.unknowns[0].sigma.value_or(0.0), 0.1 / (3.0 * std::sqrt(2.0)), 1e-2 * sigma + 1e-7) << sigma;
+  }
+}
+
+// The slip sticks at once and takes u0^2 / (2 Wtt) of energy: its sign is told by an impulse of large error alone.
+TEST(FitTest, AnIntervalReachesOverAnotherFitThatIsNearlyAsGood) {
+  const FitRequest request = {
+      .scene = {.system = PlanarContact{1.0, 0.0, 1.0, 0.8, -1.0},
+                .friction = {.kinetic_coefficient = 5.0},
+                .restitution = EnergeticCoefficient{1.0}},
+      .unknowns = {{.path = "planar_contact.tangential_m_s", .low = -3.0, .high = 3.0}},
+      .measured = {{"energy_change_j", {-0.5}, {0.01}}, {"impulse.tangential_n_s[0]", {-1.0}, {2.0}}},
+      .starts = 8};
+  const FitResponse response = *Fit(request, Never);
+  const FitEstimate& found = response.unknowns[0];
+  EXPECT_NEAR(found.value, 1.0, 1e-6);
+  EXPECT_TRUE(response.starts_differ);
+  for (const FitEnd& end : {found.low, found.high}) {
+    ASSERT_EQ(end.kind, FitEndKind::kFound);
+    EXPECT_NEAR(ChiSquaredAt(request, {*end.value}) - response.chi2, 3.841458820694124, 1e-3);
+  }
+  EXPECT_NEAR(*found.low.value, -1.0 - 0.01 * std::sqrt(2.84), 1e-3);
+  const auto is_between = [](const FitProfilePoint& point) { return point.value < -0.9; };
+  EXPECT_TRUE(std::any_of(found.profile.begin(), found.profile.end(), is_between));
+}
+
 // Where w_tt and the friction change, their product alone is measured well. At each held w_tt the best friction is near
 // 1.26/w_tt; searches that start elsewhere end where all rows stick, which changes nothing.
 TEST(FitTest, AProfileFollowsAnUnknownThatIsCorrelatedWithTheOneHeld) {
