@@ -362,7 +362,8 @@ def laws_text(graded, general, found):
     differ = any(grade and len(case.friction) == 1 and grade['law'] != general for case, grade in graded)
     if not found:
         return 'the laws that the answers state' if differ else LAW_TEXT[general]
-    return ('the laws that answers state, else by ' if differ else '') + LAW_TEXT[general] + ', which answers come nearest to'
+    others = 'the laws that answers state, else by ' if differ else ''
+    return f'{others}{LAW_TEXT[general]}, which answers come nearest to'
 
 
 def main():

@@ -52,7 +52,7 @@ ColumnRule RuleOf(const NamedAuditColumn& column, const AuditBatchRequest& reque
     // The velocities of the system after the impact follow from those before it, not from the contact's alone.
     rule.refused_for = "beside rates_after, the velocities before are those of the scene and its inputs";
   } else if (column.part == AuditColumnPart::kBefore && HasInput(request, /*of_friction=*/false)) {
-    rule.refused_for = "beside inputs, which state the velocities before by their fields of the scene";
+    rule.refused_for = "beside inputs: give it as an input, too, by the path of its field in the scene";
   } else if (column.values == &AuditColumns::friction && HasInput(request, /*of_friction=*/true)) {
     rule.refused_for = "beside inputs of the scene's friction";
   }

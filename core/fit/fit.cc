@@ -111,8 +111,8 @@ class Fitter {
     }
   }
 
-  // Steps and tolerances follow the sizes of the unknowns, which a start far from the fit does not tell. Returns true if
-  // the fit has shown an unknown to be much smaller, beyond its error.
+  // Steps and tolerances follow the sizes of the unknowns, which a start far from the fit does not tell. Returns true
+  // if the fit has shown an unknown to be much smaller, beyond its error.
   bool Rescale() {
     constexpr double kMuchSmaller = 1e-2;
     bool changes = false;

@@ -14,8 +14,9 @@ namespace ricochet::fit {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-// Derivatives by differences are right to some 1e-7 of the numbers, so a slope below this part of them counts as 0. Those
-// of a measured column count apart, as it may be far more exact than another; but not one that is 0 beside the others.
+// Derivatives by differences are right to some 1e-7 of the numbers, so a slope below this part of them counts as 0.
+// Those of a measured column count apart, as it may be far more exact than another; but not one that is 0 beside the
+// others.
 constexpr double kNothing = 1e-6;
 // An unknown with a smaller part of a combination that is not seen is seen by itself.
 constexpr double kLeastPart = 1e-3;

@@ -126,8 +126,8 @@ VectorXd OutsideCones(const ConformanceCase& one, const VectorXd& change) {
 
 LimitCheck ConeCheck(const ConformanceCase& one, const VectorXd& after, double tolerance) {
   const VectorXd left = OutsideCones(one, after - one.before);
-  // Since `left` is perpendicular to the nearest impulse and at least at a right angle to all others, each of them leaves
-  // a vector whose product with `left` is left^2 or more, and so some velocity of at least left^2 / |left|_1.
+  // Since `left` is perpendicular to the nearest impulse and at least at a right angle to all others, each of them
+  // leaves a vector whose product with `left` is left^2 or more, and so some velocity of at least left^2 / |left|_1.
   const double sum = left.lpNorm<1>();
   const double least = sum > 0.0 ? left.squaredNorm() / sum : 0.0;
   return Check(Largest(left), least, kRounding * (one.before.norm() + after.norm()) + tolerance);

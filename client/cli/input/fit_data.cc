@@ -41,7 +41,7 @@ absl::Status GivenTwice(const std::string& option, const std::string& name) {
 }
 
 absl::StatusOr<Column> ColumnOf(const std::string& name, const Scene& scene) {
-  const std::vector<std::string> numbers = Columns(scene);
+  const std::vector<std::string> numbers = ColumnPlaces(scene);
   std::vector<std::string> known = FieldPaths(scene);
   known.insert(known.end(), numbers.begin(), numbers.end());
   absl::StatusOr<std::string> path = FullName(name, known, "--data, column");
