@@ -17,8 +17,20 @@
 namespace ricochet::finite_duration {
 namespace {
 
-// Rounding, relative to the sizes of the terms of a velocity.
-constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+// Rounding, relative to the sizes of the terms of a number. That of the steps goes to and fro.
+double RoundingOf(const Path& path) {
+  return std::numeric_limits<double>::epsilon() * (64.0 + std::sqrt(static_cast<double>(path.steps)));
+}
+
+// The sizes of what adds up to the velocities at the end.
+double TermsOf(const ScaledContact& contact, const Path& path) {
+  const Motion& end = path.end;
+  const double forces = (std::fabs(contact.at) + std::fabs(contact.an)) * end[kTime];
+  double terms = std::fabs(contact.u0) + 1.0 + std::fabs(end[kU]) + std::fabs(end[kV]) + forces;
+  // Springs along t and n work against each other where W is close to rank one.
+  if (contact.compliant) terms += (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu) * end[kNormal];
+  return terms;
+}
 
 // How far the end of a straight path that is misplaced by `shift` in the normal impulse may be off in u and v. Where
 // slip stops or starts so close to the end that it may lie on the other side of it, any slope may be that of the end.
@@ -46,8 +58,7 @@ double LackingWork(const ScaledContact& contact, const Path& path) {
 double ErrorOfStraightPath(const ScaledContact& contact, const Path& path) {
   constexpr double kSafety = 1.5;
   const Motion& end = path.end;
-  const double terms = std::fabs(contact.u0) + 1.0 + std::fabs(end[kU]) + end[kV];
-  double error = path.cut_off[kU] + path.cut_off[kV] + kRounding * terms;
+  double error = path.cut_off[kU] + path.cut_off[kV] + RoundingOf(path) * TermsOf(contact, path);
   if (end[kV] > 0.0) error += kSafety * ChangeOfVelocity(contact, path, LackingWork(contact, path) / end[kV]);
   return error / std::max(1.0, std::fabs(contact.u0));
 }
@@ -74,10 +85,8 @@ double ErrorOfAnyPath(const ScaledContact& contact, const Path& path) {
   if (contact.compliant) {
     error = growth * std::max(normal, local[kU] + ErrorOfCompliantSlip(contact, path, normal)) + shift;
   }
-  double terms = std::fabs(contact.u0) + 1.0 + (std::fabs(contact.at) + std::fabs(contact.an)) * end[kTime];
-  // Springs along t and n work against each other where W is close to rank one.
-  if (contact.compliant) terms += (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu) * end[kNormal];
-  return (safety * error + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
+  const double rounding = RoundingOf(path) * TermsOf(contact, path);
+  return (safety * error + rounding) / std::max(1.0, std::fabs(contact.u0));
 }
 
 // True if finite forces press the contact together where it parts, at a velocity that may be nothing but error. The
@@ -101,15 +110,11 @@ ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact
                             const Impact& impact) {
   ImpactErrors errors;
   if (!path.HasEnd() || path.how == PathEnd::kHeld) return errors;
-  // Every step rounds the velocities and the impulses, each by itself.
-  const double rounding = kRounding + std::numeric_limits<double>::epsilon() * static_cast<double>(path.steps);
   const bool forces = contact.at != 0.0 || contact.an != 0.0;
   const Motion& end = path.end;
   const Motion& middle = path.compression;
   const double eta2 = Square(contact.eta);
-  const double terms = std::fabs(contact.u0) + 1.0 + std::fabs(end[kU]) + std::fabs(end[kV]) +
-                       (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu_static) * end[kNormal];
-  const double velocity = error * std::max(1.0, std::fabs(contact.u0)) + rounding * terms;
+  const double velocity = error * std::max(1.0, std::fabs(contact.u0));
   const double determinant = contact.rank == 2 ? contact.stick_slope * contact.wtt : 0.0;
   const auto impulses_of = [&](double velocities) -> ImpulseErrors {
     if (forces) return {};
@@ -125,8 +130,8 @@ ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact
       kOfEnergy * ((std::fabs(end[kU]) + velocity) * impulses.f + (std::fabs(end[kV]) + velocity) * impulses.tau) +
       (std::fabs(contact.u0) + std::fabs(end[kU]) + velocity) * kept.f + (1.0 + std::fabs(end[kV])) * kept.tau;
   const double middle_energy = (std::fabs(middle[kU]) + velocity) * impulses.f + velocity * impulses.tau;
-  const double sums = rounding * (end[kNormal] * (1.0 + end[kV]) +
-                                  contact.mu_static * end[kNormal] * (std::fabs(contact.u0) + path.peaks.slip));
+  const double sums = RoundingOf(path) * (end[kNormal] * (1.0 + end[kV]) +
+                                          contact.mu_static * end[kNormal] * (std::fabs(contact.u0) + path.peaks.slip));
   double normal = 0.0, returned = 0.0, tangential = 0.0, tangential_returned = 0.0;
   if (contact.IsStraight()) {
     normal = impulses.tau + velocity * middle[kNormal] + sums;
