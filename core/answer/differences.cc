@@ -21,6 +21,8 @@ constexpr double kBeside = 0x1p-44;
 constexpr double kJump = 0x1p-24;
 // The claimed error is this many times the estimate, because the least of many estimates may be small by chance.
 constexpr double kMargin = 16.0;
+// A derivative with an error above this part of it is not known.
+constexpr double kVague = 0.1;
 // Two estimates that differ by this many errors contradict each other.
 constexpr double kContradiction = 4.0;
 // The steps over the size of the number, as negative powers of two.
@@ -147,9 +149,21 @@ class Sides {
     return std::all_of(beside_.begin(), beside_.end(), is_here);
   }
 
-  // A threshold may be so near that no step fits before it. The other side then tells the derivative that both have.
-  size_t SideFor(size_t side) const { return has_neighbours_[side] || !IsInside() ? side : 1 - side; }
-  const Estimate& EstimateOn(size_t side, size_t i) const { return one_sided_[SideFor(side)][i]; }
+  // True if the estimate is exact enough to be an answer.
+  bool Tells(const Estimate& estimate, size_t i) const {
+    constexpr double kNegligible = 1e-4;
+    const double negligible = kNegligible * source_.scale(i) / line_.unit();
+    // A number that no neighbour changes is constant, however large its error is.
+    const bool stays = estimate.rate == 0.0 && std::isfinite(estimate.error);
+    return estimate.error <= std::max(kVague * std::fabs(estimate.rate), negligible) || stays;
+  }
+
+  // A threshold may be so near that no step, or none that tells much, fits before it. The other side then tells the
+  // derivative that both have.
+  const Estimate& EstimateOn(size_t side, size_t i) const {
+    const Estimate &own = one_sided_[side][i], &other = one_sided_[1 - side][i];
+    return IsInside() && !Tells(own, i) && Tells(other, i) ? other : own;
+  }
 
   // The derivative on both sides, unless each has its own.
   std::optional<Estimate> CommonOf(size_t i) const {
@@ -158,13 +172,13 @@ class Sides {
     // One of them may have stepped over a bend that its course does not tell.
     Estimate best;
     for (const auto& [x, y] : steps_[i]) {
-      if (IsInside() && Agree(x, y, kContradiction)) best = BetterOf(best, x.error > y.error ? x : y);
+      if (Tells(x, i) && Tells(y, i) && Agree(x, y, kContradiction)) best = BetterOf(best, x.error > y.error ? x : y);
     }
     if (std::isfinite(best.error)) return best;
     if (!Agree(below, above, kMargin)) return std::nullopt;
     best = BetterOf(below, above);
     best.error = std::max(best.error, std::fabs(below.rate - above.rate) / kMargin);
-    return best;
+    return kMargin * best.error <= kVague * std::fabs(best.rate) ? std::optional<Estimate>(best) : std::nullopt;
   }
 
   // `is_one_course` says that all neighbours follow the course beside the scene.
@@ -230,13 +244,10 @@ class Sides {
     if (change > kJump * std::max(std::fabs(beside), source_.scale(i)) && !goes_on) {
       return {.why_none = "the number jumps"};
     }
-    if (!has_neighbours_[SideFor(side)]) return {.why_none = "a threshold lies too near to tell the derivative"};
-    constexpr double kVague = 0.1;
-    constexpr double kNegligible = 1e-4;
-    const double negligible = kNegligible * source_.scale(i) / line_.unit();
-    // A number that no neighbour changes is constant, however large its error is.
-    const bool stays = rate == 0.0 && std::isfinite(error);
-    if (!(error <= std::max(kVague * std::fabs(rate), negligible)) && !stays) {
+    if (!std::isfinite(error) && !has_neighbours_[side]) {
+      return {.why_none = "a threshold lies too near to tell the derivative"};
+    }
+    if (!Tells(EstimateOn(side, i), i)) {
       return {.why_none = "the number changes infinitely fast, or too fast to tell how fast"};
     }
     return {.rate = rate + 0.0, .error = error};

@@ -81,7 +81,11 @@ absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, 
                             const OutcomeDetail& detail, Outcome& outcome) {
   const laws::ImpactLawResult result = laws::SolveLaw(law, problem);
   outcome.regime = RegimeOf(reduction, result);
-  if (outcome.regime == Regime::kNoSolution) outcome.termination = Termination::kRefused;
+  if (outcome.regime == Regime::kNoSolution) {
+    outcome.termination = Termination::kRefused;
+    outcome.accuracy.relative_error = std::numeric_limits<double>::infinity();
+    outcome.coefficients.newton = -1.0;  // The velocity stays as it is.
+  }
   laws::ImpactSolution solution = {.u1 = reduction.u0[0], .v1 = reduction.v0};
   if (outcome.regime == Regime::kByLaw) {
     solution = result.solutions.front();

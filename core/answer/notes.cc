@@ -118,17 +118,16 @@ double RelativeDeterminant(const spatial::Problem& of) {
   return 1.0 + 2.0 * x * y * z - x * x - y * y - z * z;
 }
 
-// Adds the note for a W whose rounding can change the answer: of a relative determinant d by some 16 eps/d of itself.
-// NaN, which a diagonal of 0 gives, has none.
-void AddRoundingNote(double determinant, const char* advice, Outcome& outcome) {
+// Adds the note for a W whose rounding can change the answer: where its entries cancel to a part d, by some 16 eps/d of
+// itself. NaN, which a diagonal of 0 gives, has none.
+void AddRoundingNote(double left, const std::string& why, const char* advice, Outcome& outcome) {
   constexpr double kShows = 1e-9;
   constexpr double kOfEntries = 0x1p-48;
-  const double effect = determinant > kOfEntries ? kOfEntries / determinant : 1.0;
-  if (!(effect > kShows) || std::isnan(determinant)) return;
+  const double effect = left > kOfEntries ? kOfEntries / left : 1.0;
+  if (!(effect > kShows) || std::isnan(left)) return;
   AddUndetermined(
       "contact_velocity_after",
-      absl::StrCat("W is so nearly singular that the rounding of its entries can change velocities and "
-                   "impulses by ",
+      absl::StrCat(why, " that the rounding of the entries of W can change velocities and impulses by ",
                    absl::StrFormat("%.1g", effect), " of themselves, which the stated errors leave out.", advice),
       outcome);
 }
@@ -145,10 +144,15 @@ struct AddUndeterminedOf {
   void operator()(const planar::Problem& problem) const {
     if (problem.v0 >= 0.0) return;
     AddJamNote(2, outcome);
+    const PlanarDelassus w = {.tt = problem.w.tt, .tn = problem.w.tn, .nn = problem.w.nn};
+    constexpr char kAdvice[] = " --certified, or certified_digits, gives digits that are proved for the scene.";
     if (IsRoundedOfFullRank(scene, 2, outcome)) {
-      const PlanarDelassus w = {.tt = problem.w.tt, .tn = problem.w.tn, .nn = problem.w.nn};
-      AddRoundingNote(w.RelativeDeterminant(),
-                      " --certified, or certified_digits, gives digits that are proved for the scene.", outcome);
+      AddRoundingNote(w.RelativeDeterminant(), "W is so nearly singular", kAdvice, outcome);
+    }
+    // A slip that drives the contact into the surface nearly as much as the normal impulse drives it out.
+    const double left = 1.0 - problem.mu * std::fabs(w.tn) / w.nn;
+    if (!std::holds_alternative<PlanarContact>(scene.system) && problem.u0 != 0.0) {
+      AddRoundingNote(std::fabs(left), "Wnn and mu |Wtn| are so nearly equal", kAdvice, outcome);
     }
     if (problem.w.tt == 0.0 && problem.u0 == 0.0 && problem.mu_static > 0.0) AddIdleFrictionNote(outcome);
   }
@@ -156,7 +160,7 @@ struct AddUndeterminedOf {
     if (problem.v0 >= 0.0) return;
     AddJamNote(3, outcome);
     if (IsRoundedOfFullRank(scene, 3, outcome)) {
-      AddRoundingNote(4.0 / 9.0 * RelativeDeterminant(problem), "", outcome);
+      AddRoundingNote(4.0 / 9.0 * RelativeDeterminant(problem), "W is so nearly singular", "", outcome);
     }
     if (!(problem.mu_static > 0.0) || !IsAtRest(outcome.contact_velocity_after.tangential_m_s)) return;
     if (problem.w11 == 0.0 && problem.w22 == 0.0) return AddIdleFrictionNote(outcome);

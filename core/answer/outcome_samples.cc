@@ -146,7 +146,8 @@ class OutcomeSource final : public SampleSource {
     const double relative = std::max(outcome.accuracy.relative_error, 0x1p-51);
     Sample sample = {.course = CourseOf(scene, outcome)};
     for (size_t i = 0; i < places_.size(); ++i) {
-      const double value = At(places_[i], numbers);
+      // The state that was reached without an end is no function of the scene.
+      const double value = HasEnd(outcome.regime) ? At(places_[i], numbers) : kNone;
       double error = 0.0;
       for (const size_t place : error_places_[i]) error += At(place, numbers);
       sample.value.push_back(value);

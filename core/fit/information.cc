@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 #include <unsupported/Eigen/SpecialFunctions>
 
 #include "core/fit/robust.h"
@@ -14,10 +16,29 @@ namespace ricochet::fit {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-// Derivatives by differences are right to some 1e-7 of the numbers, so a slope below this part of them counts as 0.
-// Those of a measured column count apart, as it may be far more exact than another; but not one that is 0 beside the
-// others.
-constexpr double kNothing = 1e-6;
+// Derivatives by differences are right to some 1e-7 of the numbers, exact ones to rounding. A slope below this part of
+// them counts as 0.
+double NothingOf(const Problem& problem) { return problem.why_differences.empty() ? 1e-11 : 1e-6; }
+
+// The size of the numbers of each measured column, and of all of its kind: a velocity that is 0 is one of a contact
+// that others of its velocities tell.
+std::vector<double> SizesOf(const Problem& problem, const LinearResiduals& residuals) {
+  std::map<std::string, double> by_kind;
+  const auto size_of_kind = [&](size_t column) -> double& {
+    const std::string& path = problem.batch.columns[column];
+    return by_kind[path.substr(0, path.find('.'))];
+  };
+  for (size_t i = 0; i < problem.numbers.size(); ++i) {
+    const Number& number = problem.numbers[i];
+    const double predicted = number.value - residuals.values[i] * residuals.sigmas[i];
+    double& size = size_of_kind(number.column);
+    size = std::max({size, std::fabs(number.value), std::fabs(predicted)});
+  }
+  std::vector<double> sizes;
+  for (size_t column = 0; column < problem.batch.columns.size(); ++column) sizes.push_back(size_of_kind(column));
+  return sizes;
+}
+
 // An unknown with a smaller part of a combination that is not seen is seen by itself.
 constexpr double kLeastPart = 1e-3;
 
@@ -57,7 +78,8 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   const auto size = static_cast<Eigen::Index>(problem.unknowns());
   Eigen::MatrixXd slopes(count, size);
   // The lengths of the numbers of each column in sigmas, and of their slopes.
-  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.batch.columns.size()));
+  const std::vector<double> sizes = SizesOf(problem, residuals);
+  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(sizes.size()));
   Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(numbers.size(), size);
   double chi2 = 0.0, weights = 0.0;                    // Sums.
   Eigen::VectorXd fall = Eigen::VectorXd::Zero(size);  // Half the fall of the objective by each unknown.
@@ -65,9 +87,8 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
     if (i % kBlock == kBlock - 1 && stopped()) return {};
     const auto number = static_cast<size_t>(i);
     const double residual = residuals.values[number];
-    const double measured = problem.numbers[number].value / residuals.sigmas[number];
     const auto column = static_cast<Eigen::Index>(problem.numbers[number].column);
-    numbers[column] = Hypot(numbers[column], std::max(std::fabs(measured - residual), std::fabs(measured)));
+    numbers[column] = Hypot(numbers[column], sizes[problem.numbers[number].column] / residuals.sigmas[number]);
     const double weight = LossOf(problem, residual * residual).weight;
     chi2 += residual * residual;
     weights += weight;
@@ -82,13 +103,13 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   const auto end_of_numbers = residuals.values.begin() + count;
   std::for_each(end_of_numbers, residuals.values.end(), [&](double residual) { chi2 += residual * residual; });
   Eigen::VectorXd lengths = slopes.colwise().norm().transpose();
-  const Eigen::ArrayXd least = kNothing * numbers.array().max(kNothing * numbers.stableNorm());
+  const double nothing = NothingOf(problem);
   Information information = {.chi2 = chi2, .is_seen = std::vector<bool>(problem.unknowns(), true)};
   information.row_shares.resize(problem.unknowns());
   for (Eigen::Index k = 0; k < size; ++k) {
     const auto unknown = static_cast<size_t>(k);
     const double scale = std::max(problem.scale[unknown], std::fabs(at[unknown]));
-    const bool is_nothing = !(changes.col(k).array() * scale > least).any();
+    const bool is_nothing = !(changes.col(k).array() * scale > nothing * numbers.array()).any();
     if (!is_nothing) information.row_shares[unknown] = SharesOf(problem, slopes.col(k));
     information.is_seen[unknown] = !is_nothing;
     slopes.col(k) *= is_nothing ? 0.0 : 1.0 / lengths[k];
@@ -98,7 +119,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   for (Eigen::Index j = 0; j < parts.singularValues().size(); ++j) {
     const Eigen::VectorXd part = parts.matrixV().col(j);
     const double value = parts.singularValues()[j];
-    if (value > kNothing) {
+    if (value > nothing) {
       ++information.rank;
       inverse += part * part.transpose() / (value * value);
       continue;

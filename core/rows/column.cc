@@ -189,11 +189,14 @@ ColumnReader::Reading ColumnReader::Read(const Outcome& outcome, std::vector<dou
     if (number == nullptr || may_be_infinite || std::isfinite(*number)) return;
     reading.too_large = std::min(*column, reading.too_large.value_or(*column));
   });
+  // The end of the mechanism that holds no coordinate counts as well as that which holds some, if it was asked for.
+  const auto& free_end = outcome.free_end;
   if (reading.too_large.has_value()) {
     reading.status = RowStatus::kNotRepresentable;
-  } else if (!outcome.admissible) {
+  } else if (!outcome.admissible || (free_end.has_value() && !free_end->admissible)) {
     reading.status = RowStatus::kInadmissible;
-  } else if (outcome.termination != Termination::kConverged) {
+  } else if (outcome.termination != Termination::kConverged ||
+             (free_end.has_value() && free_end->termination != Termination::kConverged)) {
     reading.status = RowStatus::kNotConverged;
   } else if (!is_complete) {
     reading.status = RowStatus::kIncomplete;

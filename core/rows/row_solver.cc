@@ -188,7 +188,7 @@ bool RowSolver::SetDerivatives(size_t i, absl::FunctionRef<bool()> stopped) {
   if (absl::IsCancelled(set)) return false;
   if (!set.ok()) {
     SetBad(i, RowStatus::kNotRepresentable);
-  } else if (!is_complete && statuses_[i] != RowStatus::kNotConverged) {
+  } else if (!is_complete && statuses_[i] == RowStatus::kOk) {
     statuses_[i] = RowStatus::kIncomplete;
   }
   return true;

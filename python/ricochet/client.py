@@ -458,6 +458,7 @@ class Client:
         arrays = _equally_long(
             {name: np.atleast_1d(values.column(given[name], name)) for name in given}, scene._fields())
         wanted = names.full_columns(values.names(columns, "columns"), scene._columns(), scene._fields())
+        index = labels.common("inputs", given.values(), len(next(iter(arrays.values()))))
         arguments = {"fields": list(arrays), "columns": wanted, **arguments}
         solved = self._solver.solve_batch(scene, arguments, list(arrays.values()))
         outputs, regimes, statuses, counts, bad_rows = solved
@@ -473,7 +474,7 @@ class Client:
                     for row, status, field, description in bad_rows
                 ],
             ),
-            index=labels.common("inputs", given.values(), len(regimes)),
+            index=index,
         )
 
     @overload
@@ -538,8 +539,9 @@ class Client:
             values.refuse("form", f"= {form!r}: must be 'xarray', 'pandas' or 'table'")
         scene = Scene(scene)
         given = names.by_full_name(axes, scene._fields(), "axes")
+        index = None
         if zip_axes:
-            labels.common("axes", given.values(), _row_count([np.size(axis) for axis in given.values()]))
+            index = labels.common("axes", given.values(), _row_count([np.size(axis) for axis in given.values()]))
         wanted = names.full_columns(values.names(columns, "columns"), scene._columns(), scene._fields())
         arguments = {
             "axes": [sweep_axes.to_fields(path, axis) for path, axis in given.items()],
@@ -557,6 +559,7 @@ class Client:
             summary=Record(
                 points=len(regimes), by_regime=codes["regime"].counts(), **dict(zip(_COUNTS, counts))),
             attrs={"Conventions": "CF-1.8", "title": _TITLE, **attrs},
+            index=index,
         )
         _warn_of_rows(table)
         if form == "table":
@@ -683,7 +686,10 @@ class Client:
             rates, impulse = _without_ends(
                 np.array(outcome.rates_after), states.in_world(outcome), np.array(outcome.accuracy.relative_error))
             return AtContact(rates, impulse, outcome)
-        labels.common("friction", [friction, *restitution.values()], max(several.values(), default=1))
+        arrays = [(M, 3), (J, 3), (qdot, 2), (normal, 2), (friction, 1)]
+        arrays += [(value, 1) for value in restitution.values()]
+        columns = [array for array, dimensions in arrays if getattr(array, "ndim", 0) == dimensions]
+        labels.common("qdot", columns, max(sizes, default=1))
         inputs = {"friction.kinetic_coefficient": friction, **states.columns}
         inputs.update({f"restitution.{name}": value for name, value in restitution.items()})
         table = self._batch(mechanisms.CONTACT, inputs, mechanisms.COLUMNS, {"tolerance": tolerance})

@@ -99,11 +99,13 @@ def by_name_of(values: Any, chosen: list[str], known: Collection[str], what: str
 
 def by_full_name(values: Any, known: Collection[str], what: str) -> dict[str, Any]:
     """Returns a dictionary, a pandas frame or an xarray dataset by the full names of its keys. The coordinates of a
-    dataset are columns, too, but for those that only label a dimension."""
+    dataset are columns, too, but for those that only label its rows, or all of it."""
     if not hasattr(values, "keys"):
         refuse(what, "must be a dictionary, a pandas frame or an xarray dataset")
     keys = list(values.keys())
-    keys += [name for name in getattr(values, "coords", ()) if name not in values.dims or meanings(name, known)]
+    if hasattr(values, "data_vars"):
+        keys += [name for name, coordinate in values.coords.items()
+                 if meanings(name, known) or (coordinate.ndim and name not in values.indexes)]
     if not all(isinstance(key, str) for key in keys):
         refuse(what, "must have texts for its names")
     full = full_names(keys, known, what)

@@ -158,7 +158,8 @@ class Table:
             flags = {"flag_values": np.arange(len(codes.names), dtype=np.uint8), "flag_meanings": " ".join(codes.names)}
             variables[name] = (dimensions, codes.numbers.reshape(shape), flags)
         if self.index is not None:
-            coordinates["row"] = self.index
+            is_plain = self.index.nlevels == 1  # Its name may be that of a column.
+            coordinates["row"] = self.index.rename("row") if is_plain else self.index
         return xarray.Dataset(variables, coordinates, self.attrs)
 
     def to_pandas(self) -> "pandas.DataFrame":

@@ -281,6 +281,10 @@ class Frames(Case):
         self.refused(lambda: ricochet.solve_batch(PENDULUM, columns, NEWTON), "inputs", "different indices")
         observed = dict(zip(["normal_after_m_s", "tangential_after_m_s"], columns.values()))
         self.refused(lambda: ricochet.audit_batch(PENDULUM, observed), "columns", "different indices")
+        turned = xarray.DataArray(-np.ones((2, 3)), {"state": [2, 1]}, ["state", "k"])
+        friction = xarray.DataArray([0.1, 0.2], {"state": [1, 2]})
+        self.refused(lambda: ricochet.at_contact(np.eye(3), np.eye(3), turned, [0, 0, 1], friction=friction, newton=0.5),
+                     "qdot", "different indices")
         rates = {"rates_after": [pandas.Series([0.1, 0.2], [1, 2])], "mu": columns["pendulum.a_m"]}
         self.refused(lambda: ricochet.audit_batch(PENDULUM, rates), "columns", "different indices")
         velocity = pandas.Series([0.3, 0.4], [1, 2])
@@ -291,7 +295,7 @@ class Frames(Case):
         self.refused(lambda: ricochet.sweep(PENDULUM, columns, NEWTON, zip_axes=True), "axes", "different indices")
         self.assertEqual(len(ricochet.sweep(PENDULUM, columns, NEWTON, form="table")), 4)  # A grid has no rows yet.
         states = dict(friction=columns[MU], newton=columns["pendulum.a_m"])
-        self.refused(lambda: ricochet.at_contact(np.eye(3), np.eye(3), [0, 0, -1], [0, 0, 1], **states), "friction",
+        self.refused(lambda: ricochet.at_contact(np.eye(3), np.eye(3), [0, 0, -1], [0, 0, 1], **states), "qdot",
                      "different indices")
 
     def test_all_that_a_dataset_says_of_its_rows_counts(self):
@@ -304,6 +308,13 @@ class Frames(Case):
         again = ricochet.solve_batch(PENDULUM, expected.to_xarray().drop_vars([NEWTON, "regime", "status"]), NEWTON)
         self.assertEqual(again.axes.keys(), expected.axes.keys())
         np.testing.assert_array_equal(again[NEWTON], expected[NEWTON])
+        swept = ricochet.sweep(PENDULUM, {"mu": [0.0, 0.1]}, NEWTON)
+        numbered = ricochet.solve_batch(PENDULUM, swept.drop_vars([NEWTON, "regime", "status"]), NEWTON)
+        self.assertEqual(list(numbered.to_xarray()["row"].values), [0.0, 0.1])
+        alone = xarray.Dataset(numbers, {"hue": 3.0})  # Such as a selection leaves.
+        np.testing.assert_array_equal(ricochet.solve_batch(PENDULUM, alone, NEWTON)[NEWTON], expected[NEWTON])
+        self.refused(lambda: ricochet.solve_batch(PENDULUM, pandas.DataFrame({"mu": [0.0], "coords": [1]}), NEWTON),
+                     "inputs", "= 'coords'")
         labelled = xarray.Dataset(numbers, {"row": list("xy")})
         self.assertEqual(list(ricochet.solve_batch(PENDULUM, labelled, NEWTON).to_pandas().index), ["x", "y"])
         other = xarray.DataArray([0.3, 0.4], dims="drop")

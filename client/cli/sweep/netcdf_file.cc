@@ -148,9 +148,9 @@ class SweepFile final : public NetcdfFile {
 
   int DefineNumber(const std::string& path, const std::vector<int>& dimensions) {
     const int variable = DefineVariable(path, NC_DOUBLE, dimensions);
-    const FieldInfo* const info = FindFieldInfo(path);
     if (!IsInCoordinates(path)) PutText(variable, "units", UnitText(UnitOfPath(path)));
-    if (info != nullptr && !info->meaning.empty()) PutText(variable, "long_name", info->meaning);
+    const std::string meaning = MeaningOfPath(path);
+    if (!meaning.empty()) PutText(variable, "long_name", meaning);
     return variable;
   }
 

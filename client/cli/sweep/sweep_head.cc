@@ -11,13 +11,12 @@
 namespace ricochet::cli {
 namespace {
 
-std::string MeaningOfPath(const std::string& path) {
+std::string MeaningOfColumn(const std::string& path) {
   if (path == "index") return "number of the point in the grid";
   if (path == "row") return "number of the row, from 0";
   if (path == "regime") return "how the contact behaved";
   if (path == "status") return "OK, INADMISSIBLE, or why there are no numbers";
-  const FieldInfo* info = FindFieldInfo(path);
-  return info == nullptr ? "" : info->meaning;
+  return MeaningOfPath(path);
 }
 
 // The axis as ricochet.v1.Axis has it, and its unit.
@@ -33,7 +32,7 @@ std::string ColumnsJson(const std::vector<std::string>& names) {
   std::string json = "[";
   for (const std::string& name : names) {
     absl::StrAppend(&json, json.back() == '[' ? "" : ",", "{", JsonMember("name", name), ",",
-                    JsonMember("unit", UnitOfPath(name)), ",", JsonMember("meaning", MeaningOfPath(name)), "}");
+                    JsonMember("unit", UnitOfPath(name)), ",", JsonMember("meaning", MeaningOfColumn(name)), "}");
   }
   return json + "]";
 }

@@ -176,6 +176,14 @@ std::string UnitOfPath(const std::string& path) {
   return info == nullptr ? "" : info->unit;
 }
 
+std::string MeaningOfPath(const std::string& path) {
+  if (const auto derivative = ReadDerivativeName(path)) {
+    return absl::StrCat("derivative of ", derivative->of, " by ", derivative->by);
+  }
+  const FieldInfo* const info = FindFieldInfo(path);
+  return info == nullptr ? "" : info->meaning;
+}
+
 bool IsInCoordinates(const std::string& path) {
   if (const auto derivative = ReadDerivativeName(path))
     return IsInCoordinates(derivative->of) || IsInCoordinates(derivative->by);

@@ -37,6 +37,9 @@ const FieldInfo* FindFieldInfo(absl::string_view path);
 // for a pure number and for an unknown path.
 std::string UnitOfPath(const std::string& path);
 
+// Returns what such a number is, in a few words: "k, stiffness"; empty for an unknown path.
+std::string MeaningOfPath(const std::string& path);
+
 // Returns true for a number of a mechanism in its generalised coordinates, whose units only the caller knows, and for a
 // derivative of it or by it.
 bool IsInCoordinates(const std::string& path);

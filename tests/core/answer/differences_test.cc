@@ -332,6 +332,23 @@ TEST(DifferencesTest, AThresholdNearbyHidesNoDerivative) {
   EXPECT_GT(found_two_sided, 1'000);
 }
 
+// Slip in space stops at the end where |u0| = mu W11 tau. Energy that friction takes is smooth on either side.
+TEST(DifferencesTest, AThresholdNearbyInSpaceHidesNoDerivative) {
+  for (int k = 16; k <= 40; ++k) {
+    for (const double sign : {-1.0, 1.0}) {
+      const double slip = 1.5 * (1.0 + sign * std::ldexp(1.0, -k));
+      const Scene scene = {.system = SpatialContact{{2.0, 0.0, 0.0, 2.0, 0.0, 1.0}, {0.6 * slip, 0.8 * slip}, -1.0},
+                           .friction = {.kinetic_coefficient = 0.5},
+                           .restitution = NewtonCoefficient{0.5}};
+      const Derivative found = Only(scene, "energy_change_j", kMu);
+      EXPECT_EQ(found.kind, DerivativeKind::kTwoSided) << sign * k << ": " << found.reason;
+      // While it slips, friction takes mu tau |u0| - W11 (mu tau)^2 / 2, and tau = 1.5; later it has taken all.
+      const double slope = sign > 0.0 ? -1.5 * slip + 2.0 * 0.5 * 1.5 * 1.5 : 0.0;
+      EXPECT_NEAR(found.value.value_or(1.0), slope, 1e-12 + found.error.value_or(0.0)) << sign * k;
+    }
+  }
+}
+
 // Slip on a tangential spring starts at |u0| = mu ratio^2 |v0|. The velocity has one slope there, which it approaches
 // as the root of the distance; quotients of 50 digits, extrapolated, give 0.1661296698 on both sides.
 TEST(DifferencesTest, SidesThatDifferByLessThanTheirErrorsAreOne) {

@@ -431,6 +431,19 @@ TEST(SceneOutcomeTest, ALawWithoutASolutionSaysSoAndChangesNothing) {
   EXPECT_FALSE(outcome.work.normal_compression_j.has_value());
   EXPECT_EQ(outcome.impulse.normal_total_n_s, 0.0);
   EXPECT_EQ(outcome.contact_velocity_after.normal_m_s, -1.0);
+  EXPECT_EQ(outcome.coefficients.newton, -1.0);
+  EXPECT_TRUE(std::isinf(outcome.accuracy.relative_error));
+}
+
+// a = mu b: the pendulum jams exactly, but its W = (b^2, ab, a^2)/I on a surface of its own velocity is rounded.
+TEST(SceneOutcomeTest, ANoteSaysWhereTheRoundingOfWDecidesWhetherTheContactJams) {
+  for (const auto& [a, is_near] : {std::pair(0.3, true), {0.3 + 1e-8, true}, {0.31, false}}) {
+    Scene scene = With(Pendulum{1.0, a, 1.0, -1.0}, 0.3, EnergeticCoefficient{0.5});
+    scene.surface_velocity = SurfaceVelocity{{0.0}, 0.5};
+    const Outcome outcome = Solved(scene);
+    const auto warns = [](const Note& note) { return note.text.find("so nearly equal") != std::string::npos; };
+    EXPECT_EQ(std::any_of(outcome.notes.begin(), outcome.notes.end(), warns), is_near) << a;
+  }
 }
 
 TEST(SceneOutcomeTest, KaneAndLevinsonTakeTheImpulseThatBrakesAndGiveTheEndsOfTheRange) {

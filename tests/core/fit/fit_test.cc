@@ -391,6 +391,40 @@ TEST(FitTest, AnExactColumnHidesNoOther) {
   }
 }
 
+// The tangential velocity tells mu (1 + e) alone, and the normal one e.
+TEST(FitTest, AnExactCombinationHidesNoOther) {
+  for (const double exact : {1e-3, 1e-6, 1e-8}) {
+    const FitRequest request = {
+        .scene = {.system = PlanarContact{2.0, 0.0, 1.0, 1.0, -1.0},
+                  .friction = {.kinetic_coefficient = 0.1},
+                  .restitution = NewtonCoefficient{0.5}},
+        .unknowns = {{.path = "friction.kinetic_coefficient"}, {.path = "restitution.newton"}},
+        .measured = {{"contact_velocity_after.tangential_m_s[0]", {0.7 - exact, 0.7 + exact}, {exact}},
+                     {"contact_velocity_after.normal_m_s", {0.4, 0.6}, {0.1}}}};
+    const FitResponse response = *Fit(request, Never);
+    EXPECT_EQ(response.degrees_of_freedom, 2) << exact;
+    EXPECT_NEAR(response.unknowns[1].sigma.value_or(0.0), 0.1 / std::sqrt(2.0), 1e-6) << exact;
+    EXPECT_NEAR(response.unknowns[0].sigma.value_or(0.0), 0.1 / 1.5 * 0.1 / std::sqrt(2.0), 1e-5) << exact;
+  }
+}
+
+// A contact that sticks moves along t by rounding alone, whose slopes by friction are nothing beside its velocities.
+TEST(FitTest, RoundingTellsNothing) {
+  for (const double slip : {0.3, 0.5, 0.7, 0.9}) {
+    const FitRequest request = {.scene = {.system = PlanarContact{3.5, 0.0, 1.0, slip, -1.0},
+                                          .friction = {.kinetic_coefficient = 1.1},
+                                          .restitution = EnergeticCoefficient{0.5},
+                                          .compliance = Compliance{.normal = LinearSpring{.stiffness_n_m = 1e6}}},
+                                .unknowns = {{.path = "friction.kinetic_coefficient"}},
+                                .measured = {{"contact_velocity_after.tangential_m_s[0]", {0.0, 0.0}, {1e-3}},
+                                             {"contact_velocity_after.normal_m_s", {0.5, 0.5}, {1e-3}}}};
+    const FitEstimate found = Fit(request, Never)->unknowns[0];
+    EXPECT_FALSE(found.seen) << slip;
+    EXPECT_FALSE(found.sigma.has_value()) << slip;
+    EXPECT_EQ(found.high.kind, FitEndKind::kNotSeen) << slip;
+  }
+}
+
 // The slip sticks at once and takes u0^2 / (2 Wtt) of energy: its sign is told by an impulse of large error alone.
 TEST(FitTest, AnIntervalReachesOverAnotherFitThatIsNearlyAsGood) {
   const FitRequest request = {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/scene/field.h"
 #include "core/scene/numbers.h"
 #include "ricochet/outcome_numbers.h"
@@ -206,6 +207,43 @@ TEST(ColumnTest, ADurationThatIsAskedForIsComputed) {
     EXPECT_NEAR(peaks.values[i], 3.0 * static_cast<double>(i + 1) * std::sqrt(2.0 * 2e4), 1e-8);
     EXPECT_EQ(durations.statuses[i], RowStatus::kOk);
   }
+}
+
+// At the limit of sticking there is no derivative. The impact returns more than it took all the same.
+TEST(ColumnTest, ARowWithoutADerivativeIsStillInadmissible) {
+  const std::string newton = "coefficients.newton", mu = "friction.kinetic_coefficient";
+  const Axis friction = {mu, ListValues{{0.0, 0.1}}};
+  const Scene scene = {.system = Pendulum{1.0, 0.3, 1.0, -1.0}, .restitution = NewtonCoefficient{1.2}};
+  for (const bool with_derivative : {false, true}) {
+    std::vector<std::string> columns = {newton};
+    if (with_derivative) columns.push_back(absl::StrCat("d(", newton, ")/d(", mu, ")"));
+    const Rows rows = SweepOf({.grid = {.scene = scene, .axes = {friction}}, .columns = columns});
+    EXPECT_THAT(rows.statuses, ElementsAre(RowStatus::kInadmissible, RowStatus::kInadmissible)) << with_derivative;
+  }
+}
+
+// The end without held coordinates breaks a limit where friction is large, the one with the held coordinate never.
+TEST(ColumnTest, AFreeEndThatIsAskedForIsJudged) {
+  const Mechanism arm = {.mass_matrix = {2.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.1},
+                         .jacobian = {1.0, 0.0, 3.0, 0.0, 1.0, -3.0},
+                         .rates = {1.0, -1.0, 0.0},
+                         .kept_coordinates = {2}};
+  const Scene scene = {.system = arm, .restitution = NewtonCoefficient{0.9}};
+  const Axis friction = {"friction.kinetic_coefficient", ListValues{{0.1, 1.9}}};
+  const auto statuses_of = [&](const std::string& column) {
+    return SweepOf({.grid = {.scene = scene, .axes = {friction}}, .columns = {column}}).statuses;
+  };
+  std::vector<RowStatus> expected;
+  for (const double mu : {0.1, 1.9}) {
+    Scene free = scene;
+    free.friction.kinetic_coefficient = mu;
+    std::get<Mechanism>(free.system).kept_coordinates.clear();
+    const bool admissible = LocalSolver().Solve({.scene = free})->outcome.admissible;
+    expected.push_back(admissible ? RowStatus::kOk : RowStatus::kInadmissible);
+  }
+  EXPECT_EQ(expected.back(), RowStatus::kInadmissible);
+  EXPECT_THAT(statuses_of("coefficients.newton"), ElementsAre(RowStatus::kOk, RowStatus::kOk));
+  EXPECT_EQ(statuses_of("free_end.coefficients.newton"), expected);
 }
 
 TEST(ColumnTest, AContactThatSeparatesHasNoDurationAndItsRowSaysSo) {
