@@ -60,10 +60,13 @@ Outcome WithEveryNumber(const Scene& scene) {
   outcome.contact_velocity_after.tangential_m_s.resize(tangential);
   outcome.impulse.tangential_n_s.resize(tangential);
   if (!HasDamping(scene)) outcome.effective.restitution = 0.0;
-  VisitOutcomePart(outcome.errors, [](const char* /*name*/, auto& error) {
-    if constexpr (std::is_same_v<decltype(error), std::optional<double>&>) error = 0.0;
+  const bool is_by_law = !std::holds_alternative<std::monostate>(scene.impact_law);
+  VisitOutcomePart(outcome.errors, [is_by_law](const char* /*name*/, auto& error) {
+    if constexpr (std::is_same_v<decltype(error), std::optional<double>&>) {
+      if (!is_by_law) error = 0.0;
+    }
   });
-  if (!std::holds_alternative<std::monostate>(scene.impact_law)) UnsetPhases(outcome);
+  if (is_by_law) UnsetPhases(outcome);
   outcome.contact.emplace();
   if (HoldsCoordinates(scene.system)) {
     outcome.free_end = FreeEnd{.rates_after = outcome.rates_after,
@@ -99,7 +102,7 @@ std::string RuleFor(const Scene& scene, const std::string& path, const std::vect
   for (const auto& [start, owner] : kOwners) {
     if (absl::StartsWith(path, start)) return rule + owner;
   }
-  if (exists) return rule + "an impact law has no phases of compression and restitution";
+  if (exists) return rule + "an impact law has no phases of compression and restitution, and no errors of single numbers";
   return absl::StrCat(rule, "`ricochet sweep --column '?'` lists them", DidYouMean(path, Columns(scene)));
 }
 
