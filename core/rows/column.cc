@@ -102,7 +102,8 @@ std::string RuleFor(const Scene& scene, const std::string& path, const std::vect
   for (const auto& [start, owner] : kOwners) {
     if (absl::StartsWith(path, start)) return rule + owner;
   }
-  if (exists) return rule + "an impact law has no phases of compression and restitution, and no errors of single numbers";
+  if (exists)
+    return rule + "an impact law has no phases of compression and restitution, and no errors of single numbers";
   return absl::StrCat(rule, "`ricochet sweep --column '?'` lists them", DidYouMean(path, Columns(scene)));
 }
 

@@ -126,7 +126,8 @@ TEST(BoundsDerivativesTest, AKinkNearbyIsNotSteppedOver) {
 
 // critical.stick does not depend on friction, nor does the largest energetic coefficient, 1.
 TEST(BoundsDerivativesTest, AThresholdNearbyIsNone) {
-  for (double distance = 0x1p-20; distance > 0x1p-43; distance /= 2) {
+  for (int power = 20; power < 43; ++power) {
+    const double distance = std::ldexp(1.0, -power);
     for (const double sign : {-1.0, 1.0}) {
       const Scene scene = {.system = PlanarContact{1.0, 0.0, 1.0, 0.5 * (1.0 + sign * distance), -1.0},
                            .friction = {.kinetic_coefficient = 0.5}};

@@ -311,7 +311,8 @@ TEST(DifferencesTest, SlipThatStopsJustAtTheEndHasTwoSides) {
 // By Newton's law slip stops at the end where u0 = (mu Wtt - Wtn) tau, tau = (1 + e)|v0| / Wnn.
 TEST(DifferencesTest, AThresholdNearbyHidesNoDerivative) {
   int found_two_sided = 0;
-  for (double distance = 0x1p-20; distance > 0x1p-43; distance /= 2) {
+  for (int power = 20; power < 43; ++power) {
+    const double distance = std::ldexp(1.0, -power);
     for (const double sign : {-1.0, 1.0}) {
       const Scene scene = {.system = PlanarContact{2.0, 0.5, 1.0, 0.75 * (1.0 + sign * distance), -1.0},
                            .friction = {.kinetic_coefficient = 0.5},

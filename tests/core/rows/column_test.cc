@@ -274,7 +274,8 @@ TEST(ColumnTest, ANumberThatNoOutcomeOfTheSceneHasIsRefusedWithWhatWouldMakeIt) 
   Scene law = With(Contact());
   law.restitution = std::monostate();
   law.impact_law = WhittakerLaw{0.5};
-  for (const char* column : {"coefficients.poisson", "work.normal_restitution_j", "errors.energetic", "errors.normal_m_s"}) {
+  for (const char* column :
+       {"coefficients.poisson", "work.normal_restitution_j", "errors.energetic", "errors.normal_m_s"}) {
     EXPECT_THAT(Refusal(law, column),
                 HasSubstr("must be a column of the scene; an impact law has no phases of compression and restitution"));
   }
