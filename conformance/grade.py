@@ -265,8 +265,12 @@ def limits_of(case, after, tolerance):
     return limits
 
 
+def errors_of(case, after):
+    return {name: float(np.abs(after - right).max()) for name, _, right in case.answers}
+
+
 def grade_case(case, after, law, tolerance):
-    errors = {name: float(np.abs(after - right).max()) for name, _, right in case.answers}
+    errors = errors_of(case, after)
     judge = law if len(case.friction) == 1 else min(errors, key=errors.get)
     obeyed = [name for law_, also, _ in case.answers if errors[law_] <= tolerance for name in (law_, *also)]
     gaps = [np.abs(np.sort(after) - np.sort(right)).max() for _, _, right in case.answers]
@@ -283,7 +287,7 @@ def nearest_law(cases, answers, tolerance):
     """Returns the law that answers come nearest to most often; all within the tolerance are as near."""
     counts = dict.fromkeys(LAWS, 0)
     for name, (_, after) in answers.items():
-        errors = grade_case(cases[name], after, '', tolerance)['errors']
+        errors = errors_of(cases[name], after)
         nearest = max(tolerance, min(errors.values()))
         for law, also, _ in cases[name].answers:
             for each in (law, *also) if errors[law] <= nearest else ():

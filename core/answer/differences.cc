@@ -237,20 +237,21 @@ class Sides {
     if (!beside_[side].has_value()) return {.why_none = "the scene would break a rule"};
     const double here = source_.here().value[i], beside = beside_[side]->value[i];
     if (std::isnan(here) || std::isnan(beside)) return {.why_none = "there is no such number"};
-    const auto& [rate, error, is_cut_off] = EstimateOn(side, i);
+    const Estimate& estimate = EstimateOn(side, i);
     const double change = std::fabs(beside - here);
     // A number that is 0 here may change by more than its size, at the rate of its neighbours.
-    const bool goes_on = change <= 2.0 * (std::fabs(rate) + error) * kBeside * line_.unit() && std::isfinite(error);
+    const bool goes_on = change <= 2.0 * (std::fabs(estimate.rate) + estimate.error) * kBeside * line_.unit() &&
+                         std::isfinite(estimate.error);
     if (change > kJump * std::max(std::fabs(beside), source_.scale(i)) && !goes_on) {
       return {.why_none = "the number jumps"};
     }
-    if (!std::isfinite(error) && !has_neighbours_[side]) {
+    if (!std::isfinite(estimate.error) && !has_neighbours_[side]) {
       return {.why_none = "a threshold lies too near to tell the derivative"};
     }
-    if (!Tells(EstimateOn(side, i), i)) {
+    if (!Tells(estimate, i)) {
       return {.why_none = "the number changes infinitely fast, or too fast to tell how fast"};
     }
-    return {.rate = rate + 0.0, .error = error};
+    return {.rate = estimate.rate + 0.0, .error = estimate.error};
   }
 
   Threshold ThresholdHere() const {

@@ -220,15 +220,14 @@ class Fitter {
 
   // Carries an end on to that of another minimum beyond it, if that one fits nearly as well.
   void Extend(size_t k, const Direction& direction, double rise, RayEnd& end) {
-    const auto gap_of = [&](const Minimum& other) { return other.objective - best_.objective; };
     const auto distance_of = [&](const Minimum& other) { return (other.at[k] - best_.at[k]) / direction.step[k]; };
     const auto is_beyond = [&](const Minimum& other) {
-      return gap_of(other) < rise && distance_of(other) > end.distance;
+      return other.objective - best_.objective < rise && distance_of(other) > end.distance;
     };
-    for (auto other = minima_.begin(); !model_.is_stopped();) {
-      other = std::find_if(minima_.begin(), minima_.end(), is_beyond);
+    while (!model_.is_stopped()) {
+      const auto other = std::find_if(minima_.begin(), minima_.end(), is_beyond);
       if (other == minima_.end()) return;
-      const double gap = gap_of(*other), distance = distance_of(*other);
+      const double gap = other->objective - best_.objective, distance = distance_of(*other);
       const RayEnd further = EndOfRay(*other, direction, rise - gap, 0, model_);
       end.kind = further.kind;
       end.distance = distance + further.distance;

@@ -155,14 +155,24 @@ bool IsInOtherOrder(const ConformanceCase& one, VectorXd after, double tolerance
   });
 }
 
+// The errors from each right answer.
+std::vector<double> ErrorsOf(const SimulatorAnswer& answer) {
+  std::vector<double> errors;
+  for (const RightAnswer& right : answer.asked->answers) {
+    errors.push_back(Largest(answer.velocity_after - right.velocity_after));
+  }
+  return errors;
+}
+
 // Grades one answer by itself; `law` is the one that it is judged by.
 CaseGrade GradeCase(const SimulatorAnswer& answer, const std::string& law, double tolerance) {
   const ConformanceCase& one = *answer.asked;
   const VectorXd& after = answer.velocity_after;
   CaseGrade grade{.asked = &one, .answered = true, .law = law, .error = std::numeric_limits<double>::infinity()};
-  for (const RightAnswer& right : one.answers) {
-    const double error = Largest(after - right.velocity_after);
-    grade.errors.push_back(error);
+  grade.errors = ErrorsOf(answer);
+  for (size_t i = 0; i < one.answers.size(); ++i) {
+    const RightAnswer& right = one.answers[i];
+    const double error = grade.errors[i];
     const bool judges = one.HasOneContact() ? right.law == law : error < grade.error;
     if (judges) grade.error = error;
     if (judges) grade.law = right.law;
@@ -185,7 +195,7 @@ CaseGrade GradeCase(const SimulatorAnswer& answer, const std::string& law, doubl
 std::string NearestLaw(const SimulatorAnswers& answers, double tolerance) {
   std::map<std::string, int> counts;
   for (const SimulatorAnswer& answer : answers.answers) {
-    const std::vector<double> errors = GradeCase(answer, "", tolerance).errors;
+    const std::vector<double> errors = ErrorsOf(answer);
     const double nearest = std::max(tolerance, *std::min_element(errors.begin(), errors.end()));
     for (size_t i = 0; i < errors.size(); ++i) {
       const RightAnswer& right = answer.asked->answers[i];

@@ -67,9 +67,9 @@ bool KnowsAnEnd(const MultiContactAnswer& answer) {
          (answer.springs.has_value() && has_end(*answer.springs));
 }
 
-bool Strikes(const MultiContactAnswer& answer) {
-  return std::any_of(answer.orders.begin(), answer.orders.end(),
-                     [](const AttainedOutcome& outcome) { return outcome.events > 0; });
+// True if the outcomes show that no contact strikes; each order shows it alone.
+bool NothingStrikes(const MultiContactAnswer& answer) {
+  return !answer.orders.empty() && answer.orders.front().events == 0;
 }
 
 std::string VerdictText(const MultiContactAnswer& answer) {
@@ -80,8 +80,8 @@ std::string VerdictText(const MultiContactAnswer& answer) {
       are_orders ? "orders " : "order ", answer.outcome_1, " and ", answer.outcome_2, ".\n");
   switch (answer.verdict) {
     case MultiContactVerdict::kSingle:
-      return Strikes(answer) ? "SINGLE: only one outcome is possible.\n"
-                             : "SINGLE: no contact strikes, and nothing changes.\n";
+      return NothingStrikes(answer) ? "SINGLE: no contact strikes, and nothing changes.\n"
+                                    : "SINGLE: only one outcome is possible.\n";
     case MultiContactVerdict::kOrderMatters:
       return absl::StrCat("ORDER_MATTERS: ", difference);
     case MultiContactVerdict::kOrdersAgreeSpringsDiffer:

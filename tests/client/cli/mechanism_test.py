@@ -84,6 +84,18 @@ class MechanismTest(RicochetCase):
             with self.subTest(words):
                 self.assertIn(words, self.refused(*arguments))
 
+    def test_only_a_scene_in_which_nothing_strikes_is_said_to_be_one(self):
+        feet = [{"friction": 0, "energetic": 0.5}] * 2
+        w = numpy.eye(4).tolist()  # The contacts do not feel each other: there is one outcome.
+        for normal, words in ((-1, "only one outcome is possible"), (1, "no contact strikes")):
+            (WORK / "apart.json").write_text(json.dumps(
+                {"contact_matrix": {"w_per_kg": w, "velocity_m_s": [0, normal, 0, normal]}, "contacts": feet}))
+            self.assertIn(words, self.made("multicontact", "--scene", "apart.json"))
+        striking = ["--method", "springs", "--method", "possible"]
+        (WORK / "apart.json").write_text(json.dumps(
+            {"contact_matrix": {"w_per_kg": w, "velocity_m_s": [0, -1, 0, -1]}, "contacts": feet}))
+        self.assertIn("only one outcome is possible", self.made("multicontact", "--scene", "apart.json", *striking))
+
     def test_archives_that_lack_something_are_refused_in_words(self):
         rates = {"M": M, "J": J}
         numpy.savez(WORK / "lacks.npz", **rates)
