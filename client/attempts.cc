@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 using Deadline = std::chrono::steady_clock::time_point;
 
-// A program that is told to wait for longer should decide for itself.
+// A longer wait is left to the program, which gets the error instead.
 constexpr milliseconds kLongestWait = std::chrono::minutes(1);
 constexpr milliseconds kLook{20};
 

@@ -153,8 +153,8 @@ struct Client::Connection {
     return response;
   }
 
-  // Returns the final failure of a call. One by which gRPC says that an answer is too large says, too, which option
-  // decides.
+  // Returns the final failure of a call. If gRPC has refused an answer as too large, the failure names the option that
+  // sets this limit.
   absl::Status Explain(const absl::Status& error) const {
     const std::string by_this_client = absl::StrCat(" vs. ", options.max_receive_bytes, ")");
     if (!absl::IsResourceExhausted(error) || !absl::EndsWith(error.message(), by_this_client)) {

@@ -1,8 +1,8 @@
-// FinalFailure: what the failure of a call means once it has been tried on every server: whether a retry can mend it.
+// FinalFailure: says of a call that has failed on every server whether a retry can help.
 //
 // gRPC calls every failed connection UNAVAILABLE and every message that is too large RESOURCE_EXHAUSTED, which both ask
-// to be tried again. Some of them no retry can mend: a server whose certificate is not trusted, or that does not speak
-// TLS, and a limit on a message.
+// for a retry. No retry helps if a server's certificate is not trusted, if a server does not speak TLS, or if a message
+// exceeds a limit.
 
 #ifndef RICOCHET_CLIENT_FINAL_FAILURE_H_
 #define RICOCHET_CLIENT_FINAL_FAILURE_H_

@@ -49,7 +49,7 @@ SweepRequest Part(SweepRequest request, const RangeScheduler::Task& task) {
 
 }  // namespace
 
-// The thread's own knowledge of its server.
+// Server holds what the thread of a server knows about it.
 class SweepFanOut::Server {
  public:
   Server(size_t number, const RetryPolicy& policy) : number_(number), attempts_(alone_, policy) {}
@@ -71,7 +71,7 @@ class SweepFanOut::Server {
     slow_ = 0;
   }
 
-  // How long a server that was too slow is left alone: twice as long each time.
+  // Returns how long a server that was too slow is left alone, which is twice as long each time.
   milliseconds AfterSlow(milliseconds slow_after) {
     constexpr int kMostDoublings = 10;
     return slow_after * (1 << std::min(slow_++, kMostDoublings));
@@ -180,7 +180,7 @@ absl::Status SweepFanOut::Compute(const RangeScheduler::Task& task, Server& serv
   }
   const absl::Status status = task.stop.stop_requested() ? call.Cancel() : call.Finish();
   const absl::Status complete = checker.CheckEnd();
-  // A call that fails after its last chunk has nothing left to lose.
+  // A call that fails after its last chunk has already delivered everything.
   return complete.ok() || status.ok() ? complete : status;
 }
 

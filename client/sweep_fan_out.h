@@ -37,7 +37,7 @@ namespace ricochet {
 // Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
 class SweepFanOut {
  public:
-  // How the servers are reached: `start` asks the server of a number in [0, servers).
+  // Servers says how the servers are reached: `start` asks the server of a number in [0, servers).
   struct Servers {
     SweepReader::Start start;
     size_t count = 1;
@@ -79,7 +79,7 @@ class SweepFanOut {
   // Returns the next chunk or the failure, or nothing at this time or at the end.
   std::optional<absl::StatusOr<SweepChunk>> WaitUntil(Clock::time_point until);
   absl::StatusOr<SweepChunk> Join(RangeScheduler::Piece piece);
-  // Says which server has failed.
+  // Adds to a status which server has failed.
   absl::Status FromServer(const absl::Status& status, size_t number) const;
   // Called with the mutex locked.
   absl::Status NoServerLeft(const absl::Status& last) const;
@@ -97,7 +97,7 @@ class SweepFanOut {
   bool ended_ = false;
   std::optional<absl::Status> failure_;
 
-  // The following belong to the thread that reads, and are about what has left.
+  // The members below belong to the reading thread and describe the chunks that have left.
   int64_t points_ = 0;
   int64_t task_ = 0;            // The task of the last chunk.
   std::string engine_;          // The fingerprint of its engine.

@@ -47,7 +47,7 @@ absl::StatusOr<SweepChunk> SweepReader::Received() {
 std::optional<absl::Status> SweepReader::AfterEnd() {
   const absl::Status status = call_->Finish();
   const absl::Status complete = checker_.CheckEnd();
-  // A call that fails after the summary has nothing left to lose.
+  // A call that fails after its summary has already delivered everything.
   if (complete.ok()) return complete;
   if (IsStopped(options_)) return StoppedByCaller();
   if (status.ok()) return complete;

@@ -49,7 +49,7 @@ struct Options {
 
   ConnectionLimits connections;        // Each limit from 1 to 1,000,000.
   int64_t transport_memory_mib = 256;  // For gRPC's buffers of all connections together; 1 to 1,048,576.
-  // For the requests and answers of all calls together; LeastCallMemoryMib(limits) to 1,048,576.
+  // Limits the memory of the requests and answers of all calls; from LeastCallMemoryMib(limits) to 1,048,576.
   int64_t call_memory_mib = 512;
   TransportTimes transport_times;  // Each 1 ms to 1 h.
 
@@ -76,8 +76,8 @@ struct Options {
   friend bool operator==(const Options&, const Options&) = default;
 };
 
-// So much that the share of one client, three quarters, has room for the largest batch with its answer, and at least
-// 32 MiB: any other request with its answer takes less.
+// Returns the least memory of which one client's share, three quarters, holds the largest batch with its answer, and at
+// least 32 MiB, because any other request with its answer takes less.
 int64_t LeastCallMemoryMib(const Limits& limits);
 
 // A text that the user asked for instead of a server: --help, --version.

@@ -4,17 +4,18 @@
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit
 
 # core_packages build the core without its optional components; build_packages add these and the service.
-readonly core_packages=(ccache cmake g++ libabsl-dev libeigen3-dev libhwy-dev libsleef-dev ninja-build)
+readonly core_packages=(ccache cmake g++ libabsl-dev libboost-dev libeigen3-dev libhwy-dev libsleef-dev ninja-build)
 readonly client_packages=(
   cmake g++ libabsl-dev libgrpc++-dev libisal-dev libprotobuf-dev libssl-dev ninja-build protobuf-compiler-grpc)
 readonly build_packages=(
-  "${core_packages[@]}" libflint-arb-dev libflint-dev libgmp-dev libsundials-dev
+  "${core_packages[@]}" libflint-arb-dev libflint-dev libgmp-dev
   libcli11-dev libgrpc++-dev libisal-dev libnetcdf-dev libprotobuf-dev libpython3-dev libspdlog-dev libssl-dev
   libzip-dev nlohmann-json3-dev prometheus-cpp-dev libcivetweb-dev protobuf-compiler protobuf-compiler-grpc pybind11-dev
   python3)
 readonly demo_packages=("${build_packages[@]}" gnuplot-nox)
 readonly bench_packages=(
-  "${build_packages[@]}" fonts-dejavu-core gnuplot-nox python3-grpcio python3-numpy python3-protobuf valgrind)
+  "${build_packages[@]}" fonts-dejavu-core gnuplot-nox libsundials-dev python3-grpcio python3-numpy python3-protobuf
+  valgrind)
 readonly test_packages=(
   "${build_packages[@]}" bash-completion curl gnuplot-nox groff-base haproxy libgmock-dev libgtest-dev libmujoco-dev
   mandoc mypy nghttp2-client nginx openssl pkg-config prometheus python3-cryptography python3-grpcio python3-h2

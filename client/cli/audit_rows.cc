@@ -119,7 +119,7 @@ std::string WhyInvalidIn(audit::InputScene& scene, const AuditRows& rows, size_t
          "takes too many steps";
 }
 
-// Names the column of the table where an error has the place of a column or an input.
+// Replaces the places of columns and inputs in an error by the names of the table's columns.
 absl::Status ByColumns(const AuditRows& rows, const absl::Status& status) {
   std::string message = absl::StrReplaceAll(status.message(), {{"columns.", "column "}});
   for (size_t i = rows.inputs.size(); i > 0; --i) {
@@ -217,7 +217,7 @@ absl::Status AuditAll(AuditTable& table, int64_t size, const AuditDataOptions& d
     }
     if (absl::Status status = auditor.Audit(rows); !status.ok()) return status;
     if (interrupt.token().stop_requested()) return absl::CancelledError("the audit was stopped by its caller");
-    // How many rows there will be is told by the part of the file that was read.
+    // The part of the file that was read gives an estimate of the number of all rows.
     const double part = size > 0 ? static_cast<double>(table.bytes()) / static_cast<double>(size) : 1.0;
     progress.Update(auditor.rows(),
                     std::max(auditor.rows(), static_cast<int64_t>(static_cast<double>(auditor.rows()) / part)));

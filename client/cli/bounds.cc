@@ -188,7 +188,7 @@ std::string BoundsCsv(const BoundsResponse& response) {
     row.Words("regime", RegimeName(bounds.regime));
     row.Number("friction_ratio", bounds.friction_ratio);
     row.Number("slope_ratio", bounds.slope_ratio);
-    AddRange("sharp", quantity, bounds.sharp, row);
+    AddRange(bounds.sampled ? "sampled" : "sharp", quantity, bounds.sharp, row);
     AddRange("energy_only", quantity, bounds.energy_only, row);
     AddRange("nearly_vertical", quantity, vertical, row);
     std::optional<double> error;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr char kExample[] = R"(Example: what this program can compute beside its models.
   $ ricochet info | grep features
-  features  certified, finite_duration
+  features  certified
 This program takes requests of any size. With --server the answer is about a server, and has its limits.
 CSV has one row for each property and each limit; several values of one property stand with spaces between them.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
@@ -37,7 +37,6 @@ struct Row {
 std::string Features(const InfoResponse& info, const char* separator) {
   std::vector<std::string> features;
   if (info.certified) features.emplace_back("certified");
-  if (info.finite_duration) features.emplace_back("finite_duration");
   return absl::StrJoin(features, separator);
 }
 

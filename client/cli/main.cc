@@ -41,7 +41,7 @@ void KeepMemoryOfChunks() {
 // there. Reading from it or writing to it still fails.
 void ReserveStandardDescriptors() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // The lowest free number is this one.
+    // open() takes the lowest free number, which is this one.
     if (fcntl(number, F_GETFD) < 0) open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
 }

@@ -50,7 +50,7 @@ std::vector<std::string> DefaultColumns(const Scene& scene) {
   return columns;
 }
 
-// Opens the table, whose header then has the full paths of the fields of the scene that it means.
+// Opens the table and gives its header the full paths of the scene's fields.
 absl::StatusOr<CsvReader> OpenTable(std::istream& stream, const DataOptions& data, const Scene& scene) {
   absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, data.file == "-" ? "standard input" : data.file);
   if (!reader.ok()) return reader.status();
@@ -64,7 +64,7 @@ absl::StatusOr<CsvReader> OpenTable(std::istream& stream, const DataOptions& dat
   return reader;
 }
 
-// A cell that is no number says more than the NaN that the solver was given in its place.
+// Names the cell that is no number as the reason of a bad row: the solver saw only a NaN in its place.
 void NameBadCells(const std::vector<BadCells>& cells, BatchSummary& summary) {
   for (BadRow& row : summary.bad_rows) {
     for (const BadCells& bad : cells) {

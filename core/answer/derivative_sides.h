@@ -1,4 +1,4 @@
-// The two sides of a derivative, and how they make one.
+// Says how the limits of a difference quotient from both sides make one derivative.
 
 #ifndef RICOCHET_CORE_ANSWER_DERIVATIVE_SIDES_H_
 #define RICOCHET_CORE_ANSWER_DERIVATIVE_SIDES_H_

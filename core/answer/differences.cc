@@ -158,8 +158,8 @@ class Sides {
     return estimate.error <= std::max(kVague * std::fabs(estimate.rate), negligible) || stays;
   }
 
-  // A threshold may be so near that no step, or none that tells much, fits before it. The other side then tells the
-  // derivative that both have.
+  // A threshold may be so near that no useful step fits before it. The estimate of the other side then serves for both
+  // sides.
   const Estimate& EstimateOn(size_t side, size_t i) const {
     const Estimate &own = one_sided_[side][i], &other = one_sided_[1 - side][i];
     return IsInside() && !Tells(own, i) && Tells(other, i) ? other : own;
@@ -169,7 +169,7 @@ class Sides {
   std::optional<Estimate> CommonOf(size_t i) const {
     const Estimate &below = EstimateOn(0, i), &above = EstimateOn(1, i);
     if (Agree(below, above, kContradiction)) return BetterOf(central_[i], BetterOf(below, above));
-    // One of them may have stepped over a bend that its course does not tell.
+    // One of the two estimates may come from steps over a bend that the course does not show.
     Estimate best;
     for (const auto& [x, y] : steps_[i]) {
       if (Tells(x, i) && Tells(y, i) && Agree(x, y, kContradiction)) best = BetterOf(best, x.error > y.error ? x : y);
@@ -281,6 +281,7 @@ Threshold ThresholdBetween(const Course& x, const Course& y, const Course& here)
   if (differ([](const Course& course) { return course.slip_before; })) return Threshold::kSlipStart;
   if (differ([](const Course& course) { return course.Has(EventKind::kSlipStops); })) return Threshold::kImpactEnd;
   if (differ(is(Regime::kStickInCompression, Regime::kStickInRestitution))) return Threshold::kFrictionLimit;
+  if (differ([](const Course& course) { return course.slip_started; })) return Threshold::kFrictionLimit;
   if (differ(is(Regime::kStickInCompression, Regime::kReversalInCompression))) return Threshold::kCompressionEnd;
   // Slip that stops just where compression ends counts as stopped in restitution, but comes first.
   if (differ(

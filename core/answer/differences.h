@@ -30,7 +30,8 @@ namespace ricochet {
 // A Course tells the pieces of a piecewise smooth function of scenes from each other.
 struct Course {
   Regime regime = Regime::kUnspecified;
-  int slip_before = 0;  // The sign of the slip before the impact; in space 1 if there is any.
+  int slip_before = 0;   // The sign of the slip before the impact; in space 1 if there is any.
+  int slip_started = 0;  // The sign of the slip that starts from rest at a contact that is rigid and in a plane.
   std::vector<EventKind> events;
   size_t alternatives = 0;
   ptrdiff_t speeds_passed = 0;  // The number of speeds listed in tables that the approach exceeds.

@@ -19,10 +19,10 @@ namespace {
 // The sides of a number that is 0 lie at plus and minus this value, whose square is still a normal double.
 constexpr double kBeside = 0x1p-300;
 constexpr size_t kOutputs = kPlanarOutputPaths.size();
-// Two rates that differ by less than this part of them are one. So are those that differ by less than kNegligible of
-// the largest rate of any number of the outcome, each over its size: what cancels in them leaves as much. Beside a
-// number that is 0 kSlight comes from what the derivative itself changes by between the sides. Where both sides take
-// the same course, a doubling of the number that changes the outcome by less than kUnseen of its size is rounding.
+// Two rates count as equal if they differ by less than kRounding of themselves, or by less than kNegligible of the
+// largest rate of any number of the outcome, each over its size: terms of that size may have cancelled. Beside a number
+// that is 0 the derivative itself may change by kSlight between the sides. If both sides take the same course, and a
+// doubling of the number changes the outcome by less than kUnseen of its size, that change is rounding.
 constexpr double kRounding = 0x1p-40;
 constexpr double kNegligible = 0x1p-60;
 constexpr double kSlight = 0x1p-200;
@@ -209,7 +209,7 @@ OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
   return {.rate = rate + 0.0};
 }
 
-// Rounding alone is left where impulses without bound cancel.
+// If very large impulses cancel, only rounding is left of them.
 bool ExactDerivatives::HidesInItsImpulse(const Side& side, size_t place, double value) const {
   constexpr double kMost = 0x1p10;
   const double* const x = LinearNumberAt<2>(place - kOutputs, ReductionOf(side)).of_impulse;
@@ -261,7 +261,7 @@ double ExactDerivatives::LargestRate(const Number& number, size_t place) const {
     if (!side->exists) continue;
     const double value = ValueAt(place, ReductionOf(*side), impacts_[side->impact].tangent.value);
     const double rate = RateOf(*side, place);
-    // The slope of a number that jumps beside 0 is rounding over the distance from it.
+    // The slope of a number that jumps beside 0 is only rounding divided by the distance from 0.
     if (!Jumps(*side, place, value, rate)) largest = std::max(largest, std::fabs(rate));
   }
   return largest;

@@ -71,18 +71,18 @@ class ExactDerivatives {
   bool LosesRank(const Side& side) const;
   double RateOf(const Side& side, size_t place) const;
   double SizeOf(size_t place) const;
-  // The larger rate of both sides, and the largest of any number of the outcome, over its size.
+  // Returns the larger rate of both sides; without `place` the largest of any number of the outcome, over its size.
   double LargestRate(const Number& number, size_t place) const;
-  // True if the number at `place`, which is `value` on the side, is another in the scene itself.
+  // True if the number at `place`, which is `value` on the side, has jumped from its value in the scene itself.
   bool Jumps(const Side& side, size_t place, double value, double rate) const;
-  // True if the linear number at `place`, `value`, is a small rest of what the impulses make of it.
+  // True if the linear number at `place` is a small rest of large parts of the impulses that cancel.
   bool HidesInItsImpulse(const Side& side, size_t place, double value) const;
   double LargestRate(const Number& number) const;
   static bool IsMoved(const Side& side);
   OneSided LimitOf(const Side& side, size_t place) const;
   Threshold ThresholdOf(const Number& number) const;
 
-  // Where each of paths.of stands among the numbers of the impact and, after them, the linear ones.
+  // The i-th entry is the place of paths.of[i] among the numbers of the impact, which the linear ones follow.
   std::vector<size_t> places_;
   std::deque<Number> numbers_;  // A deque leaves its elements where they are.
   // These belong to the last scene itself.

@@ -28,8 +28,8 @@ double Length(const Vector<kTangential>& x) {
 
 double Weighted(double weight, double size) { return size == 0.0 ? 0.0 : weight * size; }
 
-// The contact of A, and how far B is from it. Slip is measured by |u|, the root of u^T Wtt^-1 u; comments have the
-// symbols of docs/theory/mechanism.md.
+// Neighbours holds the contact of A and bounds on how far B differs from it. Slip is measured by |u|, the root of u^T
+// Wtt^-1 u; comments have the symbols of docs/theory/mechanism.md.
 //
 // In space one free coordinate moves slip along one direction d alone. |u| then measures the part of u along d. What u
 // has across d stays as it is, and turns friction.
@@ -58,8 +58,8 @@ class Neighbours {
   double root_trace() const { return root_trace_; }        // The length of u is at most this times |u|.
   bool has_friction() const { return most_friction_ > 0.0; }
 
-  // Whether B is sure to hold a contact at rest as A does, by kinetic friction; how long slip of this gap takes to
-  // stop.
+  // Returns the time after which slip of this gap has stopped if kinetic friction surely holds a contact of B at rest,
+  // as it does in A; else infinity.
   double SettlingTime(double slip_gap) const;
   // True if static friction decides, or may decide, whether a contact at rest is held.
   bool StaticFrictionDecides() const {
@@ -81,7 +81,7 @@ class Neighbours {
   double LeastSlope(const Vector<kTangential>& u, double reach, bool is_held) const;
 
  private:
-  // The root of x^T Wtt^-1 x for all x whose components are no larger.
+  // Bounds the root of y^T Wtt^-1 y over all y whose components are no larger than those of x.
   double Norm(const Vector<kTangential>& x) const {
     double sum = 0.0;
     if (has_one_direction_) {
@@ -106,7 +106,7 @@ class Neighbours {
   double coupling_size_, root_trace_, steepest_, slope_noise_;
   bool has_one_direction_ = false;
   Vector<kTangential> direction_ = {};  // d
-  // How far friction is turned by errors of what u has across d, and by those along d.
+  // These bound how far errors of u across d, and errors along d, turn the direction of friction.
   double across_ = 0.0, turn_by_slip_ = 0.0;
   Vector<kTangential> holding_ = {};      // Wtt^-1 wtn
   double hold_ = 0.0, hold_error_ = 0.0;  // Its length.
@@ -372,7 +372,7 @@ class Comparison {
         u_error_(outcome.errors.tangential_m_s.value_or(kInfinity)),
         v_error_(outcome.errors.normal_m_s.value_or(kInfinity)) {}
 
-  // The changes of the impulses; nothing if B surely ends at rest.
+  // Returns the changes of the impulses, or nothing if B surely ends at rest.
   std::optional<Impulses<kTangential>> Bound() const;
 
  private:
@@ -386,7 +386,7 @@ class Comparison {
   // of A then rises by one slope, and so does that of B, by as much less as v of two impacts from rest may differ.
   bool Restarts() const { return near_.StopsAtRest() && near_.SurelySlips() && course_.stop.has_value(); }
   double RestartSlope() const { return near_.SlidingSlope(course_.u1) - near_.SpeedGapAfter(1.0, 0.0); }
-  // Where v of A rises from 0. Slip may stop a little after v = 0.
+  // Returns the normal impulse at which v of A begins to rise above 0. Slip may stop a little after v = 0.
   double Start() const { return Restarts() ? std::max(*course_.stop, course_.compression) : course_.compression; }
   double LeastSlope(const Vector<kTangential>& u, double from, double step) const {
     if (Restarts() && Start() <= from - step) return RestartSlope();

@@ -35,7 +35,7 @@ WorkLedger LedgerOf(const PlanarReduction& reduction, const laws::ImpactSolution
   return work;
 }
 
-// The energy that rounding can make.
+// Returns the change of energy that rounding alone can cause.
 double EnergyOfRounding(const PlanarReduction& reduction, const laws::ImpactSolution& solution) {
   const double moved = std::abs(solution.tau1) * (std::abs(reduction.v0) + std::abs(solution.v1)) +
                        std::abs(solution.f) * (std::abs(reduction.u0[0]) + std::abs(solution.u1));

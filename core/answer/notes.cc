@@ -30,10 +30,10 @@ Note DurationLeftOut() {
               "--require finite-duration, or EFFECT_FINITE_DURATION in `required`, asks for them."};
 }
 
-// Three digits tell radians from degrees.
+// Three digits are enough to show that an angle was meant in degrees.
 std::string InRadians(double degrees) { return absl::StrFormat("%.3g", degrees * (std::numbers::pi / 180.0)); }
 
-// It is kept out of the function that looks at every angle.
+// This is kept out of line, so that the check of every angle stays short.
 [[gnu::noinline]] Note LargeAngle(const NumberPath& path, double value) {
   const std::string number = ShortestDecimal(value);
   return {.kind = NoteKind::kLargeAngle,
@@ -46,9 +46,9 @@ void AddUndetermined(const char* path, std::string text, Outcome& outcome) {
   outcome.notes.push_back({.kind = NoteKind::kUndetermined, .path = path, .text = std::move(text)});
 }
 
-// Adds the note for a verdict that the effects left out, which change velocities by up to `negligible` of the speed
-// before, may turn. The works, and near its limit 1 the energetic coefficient, then change by a few times as much; 8 is
-// above what random scenes need (VerdictNoteTest). Where the coefficient is stated it stays what it is.
+// Adds the note for a verdict that the effects left out may reverse; they change velocities by up to `negligible` of
+// the speed before. The works, and the energetic coefficient near its limit 1, then change by a few times as much; 8
+// exceeds what random scenes need (VerdictNoteTest). A coefficient that is stated does not change.
 void AddVerdictNote(const Restitution& restitution, double negligible, Outcome& outcome) {
   constexpr double kOfCoefficient = 8.0;
   if (!outcome.admissible || std::holds_alternative<EnergeticCoefficient>(restitution)) return;
@@ -88,7 +88,7 @@ void AddIdleFrictionNote(Outcome& outcome) {
                   outcome);
 }
 
-// Only an impact without forces, which change velocities as long as the contact lasts, is that of a model without time.
+// Forces change velocities as long as the contact lasts; without them a model without time gives the same impact.
 void AddTimedNote(const Scene& scene, Outcome& outcome) {
   const bool has_forces = !std::holds_alternative<std::monostate>(scene.finite_forces);
   if (outcome.plan.model != Model::kFiniteDuration || has_forces) return;
@@ -149,7 +149,7 @@ struct AddUndeterminedOf {
     if (IsRoundedOfFullRank(scene, 2, outcome)) {
       AddRoundingNote(w.RelativeDeterminant(), "W is so nearly singular", kAdvice, outcome);
     }
-    // A slip that drives the contact into the surface nearly as much as the normal impulse drives it out.
+    // Slip may drive the contact into the surface nearly as much as the normal impulse drives it out.
     const double left = 1.0 - problem.mu * std::fabs(w.tn) / w.nn;
     if (!std::holds_alternative<PlanarContact>(scene.system) && problem.u0 != 0.0) {
       AddRoundingNote(std::fabs(left), "Wnn and mu |Wtn| are so nearly equal", kAdvice, outcome);

@@ -66,7 +66,7 @@ struct Approach {
 // become unset: no bound is known of them.
 void AddNeglected(double neglected, const Approach& approach, Outcome& outcome);
 
-// Says so if the outcome was followed to its end but its error exceeds `tolerance`, which a tolerance of 0 allows.
+// Marks an outcome that has an end as less accurate if its error exceeds `tolerance`; 0 stands for any error.
 void CompareWithTolerance(double tolerance, Outcome& outcome);
 
 // Unsets the numbers of the two phases and their errors, of which an impact law knows nothing.

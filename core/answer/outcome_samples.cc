@@ -27,7 +27,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // The name at the end of a path.
 absl::string_view NameOf(absl::string_view path) { return path.substr(path.rfind('.') + 1); }
 
-// The numbers with errors of their own of which the number with this name is a sum.
+// Returns the numbers, each with an error of its own, whose sum is the number with this name.
 std::vector<absl::string_view> PartsOf(absl::string_view name) {
   if (name == "normal_total_j") return {"normal_compression_j", "normal_restitution_j"};
   if (name == "tangential_total_j" || name == "friction_dissipation_j") {
@@ -42,13 +42,18 @@ ptrdiff_t SpeedsBelow(double speed, const std::optional<SpeedDependence>& depend
   return std::count_if(table->speed_m_s.begin(), table->speed_m_s.end(), [speed](double one) { return one < speed; });
 }
 
+int SignOf(double x) { return (x > 0.0 ? 1 : 0) - (x < 0.0 ? 1 : 0); }
+
 Course CourseOf(const Scene& scene, const Outcome& outcome) {
   Course course = {.regime = outcome.regime, .alternatives = outcome.alternatives.size()};
   for (const Event& event : outcome.timeline) course.events.push_back(event.kind);
   if (!outcome.timeline.empty()) {
     const Components& slip = outcome.timeline.front().state.contact_velocity.tangential_m_s;
     if (slip.size() == 1) {
-      course.slip_before = (slip[0] > 0.0 ? 1 : 0) - (slip[0] < 0.0 ? 1 : 0);
+      course.slip_before = SignOf(slip[0]);
+      const bool is_rigid = outcome.plan.model == Model::kPlanar || outcome.plan.model == Model::kSliding;
+      const double after = outcome.contact_velocity_after.tangential_m_s[0];
+      if (course.slip_before == 0 && is_rigid) course.slip_started = SignOf(after);
     } else {
       course.slip_before = std::any_of(slip.begin(), slip.end(), [](double u) { return u != 0.0; }) ? 1 : 0;
     }
@@ -146,7 +151,7 @@ class OutcomeSource final : public SampleSource {
     const double relative = std::max(outcome.accuracy.relative_error, 0x1p-51);
     Sample sample = {.course = CourseOf(scene, outcome)};
     for (size_t i = 0; i < places_.size(); ++i) {
-      // The state that was reached without an end is no function of the scene.
+      // A state that was reached without an end is no function of the scene, so it has no value here.
       const double value = HasEnd(outcome.regime) ? At(places_[i], numbers) : kNone;
       double error = 0.0;
       for (const size_t place : error_places_[i]) error += At(place, numbers);

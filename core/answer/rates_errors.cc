@@ -19,7 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = 0x1p-53;
 
-// How far the coefficients of the exact approach speed may be from those that the impact was computed with.
+// Returns by how much the coefficients at the exact approach speed may differ from those used for the impact.
 EffectiveCoefficients CoefficientErrors(const Scene& scene, double speed, double speed_error) {
   EffectiveCoefficients errors;
   if (!DependsOnSpeed(scene)) return errors;
@@ -36,7 +36,7 @@ EffectiveCoefficients CoefficientErrors(const Scene& scene, double speed, double
   return errors;
 }
 
-// The errors of W and of the contact velocity: those of their sums, and what has changed the sums afterwards.
+// Returns the errors of W and of the contact velocity: those of their sums, and the later corrections of the sums.
 template <size_t kTangential>
 ContactErrors<kTangential> ErrorsOf(const Scene& scene, const Reduction<kTangential>& reduction,
                                     const MechanismErrors& errors) {
@@ -74,7 +74,7 @@ Freedom FreedomOf(const Scene& scene, const Mechanism& mechanism, const std::vec
   return count == 2 && is_alone ? Freedom::kTwoAlone : Freedom::kMany;
 }
 
-// The errors of the impulses: those of the model, and what errors of its contact add. Nothing if all surely stops.
+// Returns the errors of the impulses, of the model and by its contact; nothing if all free coordinates surely stop.
 template <size_t kTangential>
 std::optional<Impulses<kTangential>> TotalErrors(const Scene& scene, const Reduction<kTangential>& reduction,
                                                  const MechanismErrors& errors, Freedom freedom,

@@ -296,7 +296,7 @@ absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const Fiel
   const Enclosure enclosure = IsSolvedAtCorners(uncertain.box())
                                   ? Enclose(std::get<PendulumBox>(ContactOf(uncertain.box(), parameters, stopped)))
                                   : Enclose(uncertain.whole(), contact_in, options, stopped);
-  // A box that was being reduced when the stop came is of no meaning, and so is an enclosure with it.
+  // A stop leaves the last box half reduced, so that the enclosure means nothing.
   if (stopped()) return absl::CancelledError("the enclosure was stopped by its caller");
   if (enclosure.attained.newton.lower > enclosure.attained.newton.upper) {
     return InvalidRequest({MakeViolation("ranges", "hold no valid scene",

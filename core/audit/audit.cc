@@ -57,7 +57,7 @@ Contact<3> MakeContact(const spatial::Problem& in, const Observation& seen) {
           .uncertainty = seen.uncertainty};
 }
 
-// Returns what the velocities before and after are rounded in proportion to.
+// Returns the size in proportion to which the velocities before and after are rounded.
 template <size_t N>
 double SizeOf(const Contact<N>& contact, size_t i) {
   return std::abs(contact.after[i]) + std::abs(contact.before[i]) + contact.terms[i];
@@ -368,8 +368,8 @@ AuditReport AuditRankOne(const Contact<2>& contact, const RangeDirection& range,
   const double v0 = contact.before[1];
   const double component = range.t * u1 + range.n * v1;
   const double component_error = std::abs(range.t) * error[0] + range.n * error[1];
-  // Where v+ is in the range it is its own nearest point, which needs no rounded projection. A contact that separates
-  // keeps its velocity, which may lie beside the range.
+  // A v+ in the range of W is its own nearest point and needs no rounded projection. A contact that separates keeps its
+  // velocity, which may lie beside the range.
   const bool in_range =
       v0 >= 0.0 ? std::abs(u1 - contact.before[0]) <= error[0] && std::abs(v1 - v0) <= error[1]
                 : std::abs(range.n * u1 - range.t * v1) <= range.n * error[0] + std::abs(range.t) * error[1];
@@ -555,7 +555,7 @@ absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& proble
   PathPoint point = start;
   PathPoint moved_back = start;
   if (start.regime != Regime::kSeparating) {
-    // The path comes no nearer once its normal velocity is above v+_n by the distance from its start.
+    // Once its normal velocity exceeds v+_n by the distance of the start from v+, the path comes no nearer.
     const double farthest = std::max(contact.after[2], 0.0) + search.DistanceTo(start);
     const PathPoint likely = PathWhereNormalIs(problem, std::max(contact.after[2], 0.0));
     const PathPoint end = PathWhereNormalIs(problem, farthest);

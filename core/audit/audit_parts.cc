@@ -42,7 +42,7 @@ std::vector<Violation> CheckContact(const Scene& scene, const SceneContact& cont
 }  // namespace
 
 std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact) {
-  // A law of speed, which an audit does not use, may have no restitution at the speed of the observation.
+  // An audit does not use the law of speed, whose restitution may be invalid at the observed speed.
   std::optional<Scene> without_law;
   if (scene.restitution_by_speed.has_value()) without_law.emplace(scene).restitution_by_speed.reset();
   std::vector<Violation> violations =
@@ -74,8 +74,8 @@ double SpeedOf(const Reduction& reduction, const Observation& seen) {
   return speed;
 }
 
-// Returns how far one velocity of the system is from what the impulse makes of it, `expected`, as the speed of the
-// contact that changes it as much; 0 where `uncertainty` of the contact velocity or rounding explains that.
+// Returns the difference between one velocity of the system and `expected`, which the impulse gives it, as the contact
+// speed with the same effect; 0 where `uncertainty` of the contact velocity or rounding explains it.
 template <typename Reduction>
 double DistanceOf(const Reduction& reduction, size_t place, double rate, double expected, double uncertainty,
                   const std::array<double, Reduction::kDirections>& impulse) {
@@ -115,7 +115,7 @@ void CheckRates(const AnyReduction& reduction, absl::Span<const double> rates, c
         std::copy(tangential.begin(), tangential.end(), impulse.begin());
         impulse.back() = report.normal_impulse;
         const auto expected = of.After(tangential, report.normal_impulse);
-        // Where an impulse cancels, what is left of it is rounding of speeds.
+        // What is left where impulses cancel is only the rounding of speeds.
         const double uncertainty = seen.uncertainty + kRounding * SpeedOf(of, seen);
         for (size_t i = 0; i < rates.size(); ++i) {
           const double distance = DistanceOf(of, i, rates[i], expected[i], uncertainty, impulse);

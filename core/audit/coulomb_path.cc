@@ -36,7 +36,7 @@ Regime RegimeOf(const Impact& impact) {
   return impact.termination == Termination::kBudgetUsedUp ? Regime::kUnspecified : impact.regime;
 }
 
-// The end of an impact is a point of the path.
+// Returns the end of an impact as a point of the path.
 template <typename Problem, typename Impact>
 PathPoint EndOf(const Problem& problem, const Impact& impact) {
   return {.regime = RegimeOf(impact),
@@ -69,7 +69,7 @@ auto SolveBy(Problem problem, RestitutionLaw law, double coefficient) {
   return Solve(problem);
 }
 
-// Fills in a point before the end of compression, all but its impulses, velocities and works.
+// Fills a point before the end of compression, except its impulses, velocities and works.
 template <typename Problem, typename Impact>
 PathPoint DuringCompression(const Problem& problem, const Impact& impact, double tau) {
   PathPoint point{

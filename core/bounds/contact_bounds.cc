@@ -40,7 +40,7 @@ CoefficientBounds SharpBounds(const Problem& problem, const Impact& plastic, con
   return bounds;
 }
 
-// d(u, v, f)/dtau, and in `power` the slope of E'.
+// Slopes holds d(u, v, f)/dtau; `power` is the slope of E' = dE/dtau.
 struct Slopes {
   double u, v, f, power;
 };
@@ -68,7 +68,7 @@ Slopes SlopesAfterStop(const Problem& problem, int w_rank) {
   return slopes;
 }
 
-// Follows the path to the point at which the contact has the energy that it came with.
+// EnergyWalk follows the path up to the point at which the kinetic energy equals that before the impact.
 struct EnergyWalk {
   double tau, f, u, v;
   double energy;  // E - E- <= 0, J
@@ -97,7 +97,7 @@ bool HasStopped(const Impact& impact) {
                      [](const Instant& instant) { return instant.kind == EventKind::kSlipStops; });
 }
 
-// Walks from the end of the elastic impact to the point at which the energy is back.
+// Walks from the end of the elastic impact to the point at which the kinetic energy equals that before the impact.
 EnergyWalk WhereEnergyIsBack(const Problem& problem, const Impact& elastic) {
   EnergyWalk at = {.tau = elastic.tau1,
                    .f = elastic.f1,

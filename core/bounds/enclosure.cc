@@ -305,7 +305,7 @@ Pendulums MakePendulums(const PendulumBox& box) {
   return all;
 }
 
-// The largest values of the scenes that slip, for which x = mu |b|/a < mu/mu_s.
+// MostSlipping holds the largest values of the scenes that slip, for which x = mu |b|/a < mu/mu_s.
 struct MostSlipping {
   Interval x, mu;
 };

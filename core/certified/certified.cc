@@ -72,7 +72,7 @@ Certificate CertifyExact(Question question, const SystemContact<Surd>& system, i
 
 ArfInterval ValueOf(const Number<ArfInterval>& number) { return number.is_square ? Sqrt(number.value) : number.value; }
 
-// For each number of an answer, the smallest interval that contains it in all answers included so far.
+// Hulls keeps for each number of an answer the smallest interval that contains it in all answers included so far.
 class Hulls {
  public:
   void Include(const Answer<ArfInterval>& answer) {

@@ -208,7 +208,7 @@ class ContactPath {
   bool StopIsAhead() const { return stops_ && !stops_in_compression_; }
   const Piece& Current() const { return stops_in_compression_ ? second_ : first_; }
 
-  // How far restitution goes: on the current piece alone, or past the point where slip stops.
+  // Steps holds the impulses of restitution before and after the stop of slip, and the v at the end.
   struct Steps {
     bool passes_stop;
     N before, after, v1;

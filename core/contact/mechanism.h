@@ -63,7 +63,7 @@ struct FreePart {
   Eigen::MatrixXd mass, jt;  // Scaled: one row for each free coordinate; `jt` has a column for each row of J.
 };
 
-// X of a free part, scaled like it.
+// Response holds X of a free part, with the same scaling.
 struct Response {
   explicit Response(const FreePart& part);
 

@@ -15,11 +15,11 @@
 namespace ricochet {
 
 struct SceneContact {
-  // The rules of the scene's own fields hold already. W or the velocity may overflow: see FitsDoubles.
+  // The scene must keep the rules of its own fields. W or the velocity may overflow: see FitsDoubles.
   explicit SceneContact(const Scene& scene)
       : reduction(Reduce(scene)), coefficients(CoefficientsAtSpeed(scene, ApproachSpeed(reduction))) {}
 
-  // For a scene whose Reduce is known.
+  // `known` is Reduce(scene), for a caller who has it already.
   SceneContact(const Scene& scene, AnyReduction known)
       : reduction(std::move(known)), coefficients(CoefficientsAtSpeed(scene, ApproachSpeed(reduction))) {}
 

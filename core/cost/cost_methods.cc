@@ -20,8 +20,8 @@ bool HasLostDigits(const planar::Problem& problem) {
   return std::min({problem.w.tt, problem.w.nn, std::fabs(problem.v0)}) < std::numeric_limits<double>::min();
 }
 
-// The rounding of a pendulum's W as a planar contact, over V: x has a relative error of a few 2^-53, which moves
-// kappa_hat by at most kappa_hat/(1 - x^2) times that. `newton` is at least kappa_hat.
+// Returns the error, over V, that the rounded W of a pendulum causes in the planar models: x has a relative error of a
+// few 2^-53, which moves kappa_hat by at most kappa_hat/(1 - x^2) times that. `newton` is at least kappa_hat.
 double ReductionError(const planar::Problem& problem) {
   const double x = problem.mu_static * std::fabs(problem.w.tn) / problem.w.nn;
   const double distance = std::fabs(1.0 - x);

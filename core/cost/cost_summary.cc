@@ -18,7 +18,7 @@ double OwnStiffness(const Scene& scene) {
   return scene.compliance.has_value() ? StiffnessOf(scene.compliance->normal) : 0.0;
 }
 
-// The row of a model at a tolerance: that of the largest tolerance which is not above it.
+// Returns the row of a model with the largest tolerance that does not exceed `tolerance`.
 int64_t RowOf(const std::vector<CostRow>& rows, const CostMethod& wanted, double tolerance) {
   constexpr double kRounding = 1.0 + 1e-9;
   int64_t found = -1;

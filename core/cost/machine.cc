@@ -18,7 +18,7 @@ namespace {
 
 std::string CpuName() {
 #if defined(__x86_64__) || defined(__i386__)
-  // Three leaves of CPUID hold 16 characters each.
+  // Each of the three CPUID leaves from here on holds 16 characters of the name.
   constexpr uint32_t kFirst = 0x80000002;
   constexpr uint32_t kLast = 0x80000004;
   std::array<uint32_t, 4> part = {};

@@ -23,8 +23,8 @@ EffectSet SimulatedBy(Model model) {
 }  // namespace
 
 Demand DemandFor(Model model) {
-  // The frictionless form has rounding errors, so that it is never within a tolerance of 0; with friction excluded
-  // there is no cheaper one.
+  // The rounding errors of the frictionless form exceed a tolerance of 0, so it gets a larger one; with friction
+  // excluded there is no cheaper model.
   const EffectSet simulated = SimulatedBy(model);
   Demand demand = {.relative_tolerance = model == Model::kFrictionless ? 0.1 : 0.0};
   for (const Effect effect : kEffects) {

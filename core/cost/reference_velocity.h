@@ -33,10 +33,10 @@ struct ReferenceVelocity {
   std::string source;      // One sentence that says where the numbers come from.
 };
 
-// These numbers as they are.
+// Returns a reference with these numbers as they are.
 ReferenceVelocity ReferenceAt(const Velocity3& velocity, double error, std::string source);
 
-// The impact of a pendulum, or of a contact of rank one, that approaches.
+// Return the exact velocity of a rigid impact that approaches, of a pendulum or of a planar contact.
 ReferenceVelocity ExactRigid(const pendulum::Problem& problem, Stopped stopped);
 ReferenceVelocity ExactRigid(const planar::Problem& problem, Stopped stopped);
 
@@ -44,11 +44,11 @@ ReferenceVelocity ExactRigid(const planar::Problem& problem, Stopped stopped);
 // and the velocity lies in its range.
 Scene CertifiableScene(const planar::Problem& problem);
 
-// Slip along u0 that is taken to go on to the end; with mu = 0 there is no friction at all.
+// Returns the velocity if slip along u0 goes on to the end; with mu = 0 there is no friction at all.
 template <size_t kTangential>
 ReferenceVelocity ExactSliding(const sliding::Problem<kTangential>& problem);
 
-// No friction.
+// Returns the velocity after an impact without friction.
 ReferenceVelocity ExactFrictionless(const pendulum::Problem& problem);
 
 ReferenceVelocity ExactFirstOrder(const pendulum::Problem& problem);

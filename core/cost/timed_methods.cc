@@ -125,20 +125,14 @@ ReferencePointer AddFiniteDuration(const planar::Problem& contact, const Contact
     const double stiffness = StiffnessOf(spring);
     for (const double tolerance : kTolerances) {
       problem.tolerance = tolerance;
-      StudiedMethod method = {.name = absl::StrCat("duration k=", stiffness, " ", tolerance),
-                              .method = {.model = Model::kFiniteDuration,
-                                         .arithmetic = Arithmetic::kPlain,
-                                         .tolerance = tolerance,
-                                         .stiffness = stiffness},
-                              .claimed_modelling = own ? 0.0 : SizeOfTime(contact, physics, spring) + own_size,
-                              .exact = exact};
-      if (finite_duration::IsAvailable()) {
-        method.kernel = TimedKernel(problem);
-      } else {
-        method.unavailable = absl::StrCat(
-            "No model of finite duration (component finite_duration): ", finite_duration::WhyUnavailable(), ".");
-      }
-      methods.push_back(std::move(method));
+      methods.push_back({.name = absl::StrCat("duration k=", stiffness, " ", tolerance),
+                         .method = {.model = Model::kFiniteDuration,
+                                    .arithmetic = Arithmetic::kPlain,
+                                    .tolerance = tolerance,
+                                    .stiffness = stiffness},
+                         .kernel = TimedKernel(problem),
+                         .claimed_modelling = own ? 0.0 : SizeOfTime(contact, physics, spring) + own_size,
+                         .exact = exact});
     }
   }
   return own_exact;

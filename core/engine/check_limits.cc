@@ -85,7 +85,7 @@ void SizeCheck::Scene(const ricochet::Scene& scene) {
   if (linkage != nullptr) Entries("linkage.links", linkage->links.size(), &Limits::max_links);
   const auto* const mechanism = std::get_if<Mechanism>(&scene.system);
   if (mechanism != nullptr) Coordinates(*mechanism);
-  // The last number of a list tells its size.
+  // Numbers are visited in order, so that the last one of a list tells its length.
   NumberPath last;
   const auto check_list = [&] {
     if (last.index < limits_.max_list_numbers) return;

@@ -17,7 +17,6 @@
 #include "core/base/stable_hash.h"
 #include "core/contact/multi_reduction.h"
 #include "core/engine/fit_run.h"
-#include "core/models/finite_duration/finite_duration.h"
 #include "core/models/restitution_law.h"
 #include "core/multi/solve_multi_contact.h"
 #include "core/plan/demand.h"
@@ -81,7 +80,7 @@ Mechanism MechanismProbe(int i) {
   return mechanism;
 }
 
-// Systems of every kind, none of which lacks a number that its reduction reads.
+// Returns systems of every kind, each with all numbers that its reduction reads.
 std::vector<System> SystemProbes() {
   static_assert(std::variant_size_v<System> == 9, "a system that was added needs a probe");
   std::vector<System> systems;
@@ -103,7 +102,7 @@ std::vector<System> SystemProbes() {
   return systems;
 }
 
-// Gravity where a system may have it, and a moment about the pin of a pendulum.
+// Returns gravity where a system may have it, and a moment about the pin for a pendulum.
 FiniteForces ForcesOn(const System& system) {
   if (std::holds_alternative<Pendulum>(system)) return PinMoment{0.3};
   const auto* const pair = std::get_if<BodyPair>(&system);
@@ -195,17 +194,6 @@ class Questions {
   std::array<std::vector<uint64_t>, std::variant_size_v<System>> by_system_;
 };
 
-// SUNDIALS chooses its steps by roots of errors. Two libraries whose pow differs may agree on the few roots of a few
-// impacts, so that many more are compared.
-std::vector<uint64_t> PowersOfTheLibrary() {
-  std::vector<uint64_t> bits;
-  double base = 1e-6;
-  for (int i = 0; i < 4096 && finite_duration::IsAvailable(); ++i, base *= 1.007) {
-    bits.push_back(std::bit_cast<uint64_t>(finite_duration::LibraryPower(base, 1.0 / (2 + i % 12))));
-  }
-  return bits;
-}
-
 // Returns the values of axes, because a sweep computes its points from them.
 std::vector<uint64_t> ValuesOfAxes() {
   std::vector<uint64_t> bits;
@@ -271,7 +259,7 @@ std::vector<Probe> ProbeEngine() {
   Questions questions;
   int i = 0;
   for (const System& system : SystemProbes()) {
-    // The tolerances call for both arithmetics, and each excluded effect for the answer without it.
+    // The tolerances make the plan use both arithmetics, and each excluded effect a model without it.
     for (const double tolerance : {0.0, 1e-12, 1e-6}) {
       questions.Ask(RigidScene(system, i), {.relative_tolerance = tolerance});
     }
@@ -281,14 +269,11 @@ std::vector<Probe> ProbeEngine() {
     if (TangentialDirections(system) == 1) {
       questions.Ask(CompliantScene(system, i), {});
       questions.Ask(LawScene(system, i), {});
-      if (finite_duration::IsAvailable() && i % 4 == 1) {
-        questions.Ask(LastingScene(system, i), {.relative_tolerance = 1e-3});
-      }
+      if (i % 4 == 1) questions.Ask(LastingScene(system, i), {.relative_tolerance = 1e-3});
     }
     ++i;
   }
   std::vector<Probe> probes = std::move(questions).Answers();
-  probes.push_back({"powers", PowersOfTheLibrary()});
   probes.push_back({"axes", ValuesOfAxes()});
   probes.push_back({"several contacts", SeveralContacts()});
   probes.push_back({"fit", FittedNumbers()});

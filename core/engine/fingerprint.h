@@ -1,9 +1,7 @@
 // Fingerprint: a hash over what the engine answers to a fixed set of problems, so that two engines can be compared.
 //
 // Scenes of every system, law and model are solved as any other scene is. Two engines with equal fingerprints give the
-// same bits as far as these problems tell; sweeps are joined on that ground. The model of finite duration, if the build
-// has it, depends on the C library's pow, which differs from one machine to another: it is asked for itself at
-// thousands of arguments.
+// same bits as far as these problems tell; sweeps are joined on that ground.
 
 #ifndef RICOCHET_CORE_ENGINE_FINGERPRINT_H_
 #define RICOCHET_CORE_ENGINE_FINGERPRINT_H_
@@ -18,7 +16,7 @@ namespace ricochet {
 
 // The answers to the problems of one kind.
 struct Probe {
-  std::string kind;            // "model 6" by the number of Model, "system 3" by the alternative of System, or "powers"
+  std::string kind;            // "model 6" by the number of Model, "system 3" by the alternative of System, ...
   std::vector<uint64_t> bits;  // One word for each number of the answers, in a fixed order.
 };
 

@@ -1,5 +1,5 @@
-// HelpedRun: what every call has that other threads help: it asks for them, waits for them, takes over the exception
-// that one of them meets, and does not end before they do.
+// HelpedRun: the part that all calls share in which other threads help: it asks for helpers, waits for them, rethrows
+// the exception that one of them meets, and does not end before they do.
 //
 //   Thread of the call: Begin(); then, again and again: take something to do and do it, AskForHelp(lock), Wait(lock).
 //   Each helper:        take something to do and do it, until there is nothing or `gives_way` says so.
@@ -44,7 +44,7 @@ class HelpedRun {
   bool is_stopping() const { return stopping_; }
   void Stop() { stopping_ = true; }
 
-  // Says that the run begins now, unless it has before.
+  // Says that the run begins now. Only the first call has an effect.
   void Begin();
 
   // The functions below are called on the thread of the call with the mutex locked.

@@ -4,14 +4,13 @@
 #include <variant>
 
 #include "core/certified/certified.h"
-#include "core/models/finite_duration/finite_duration.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/system.h"
 
 namespace ricochet {
 namespace {
 
-// In the order of System, whose first alternative stands for none.
+// The names are in the order of System, whose first alternative stands for no system.
 constexpr const char* kSystems[] = {"pendulum", "planar_body",    "spatial_body",    "body_pair",
                                     "linkage",  "planar_contact", "spatial_contact", "mechanism"};
 static_assert(std::size(kSystems) + 1 == std::variant_size_v<System>);
@@ -22,11 +21,9 @@ InfoResponse InfoOf(const Limits& limits) {
   InfoResponse info = {.engine = ThisEngine(),
                        .limits = limits,
                        .certified = certified::IsAvailable(),
-                       .finite_duration = finite_duration::IsAvailable(),
                        .systems = {std::begin(kSystems), std::end(kSystems)}};
   for (int number = 1; number < kModelCount; ++number) {
-    const auto model = static_cast<Model>(number);
-    if (model != Model::kFiniteDuration || info.finite_duration) info.models.push_back(model);
+    info.models.push_back(static_cast<Model>(number));
   }
   return info;
 }

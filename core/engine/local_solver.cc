@@ -85,7 +85,7 @@ absl::Status CheckAdmissible(const Outcome& outcome) {
   return CheckAdmissible(*outcome.free_end, " with no coordinate held");
 }
 
-// A client sees the first points soon, and no proxy or caller waits long between two chunks.
+// These times let a client see its first points soon, and keep the wait between two chunks short.
 constexpr std::chrono::milliseconds kFirstChunkTime(100);
 constexpr std::chrono::milliseconds kChunkTime(1000);
 

@@ -35,7 +35,7 @@ class SweepBuffer {
   bool has_unclaimed() const { return !unclaimed_.empty(); }
   bool Contains(const Block& block) const { return block.first >= first_ && block.first < first_ + room_; }
 
-  // Where the results of the points of a block go; without regimes, neither they nor the statuses.
+  // Returns the places for the results of a block's points, with regimes and statuses only if these are wanted.
   RowSink SinkOf(const Block& block, SweepSummary& counts);
 
   // Says that the first `count` points of a block that was claimed are computed. The rest may be claimed again.

@@ -24,12 +24,12 @@ using Block = SweepBuffer::Block;
 
 constexpr int64_t kFirstChunkPoints = 1024;
 
-// Blocks of threads that share a sweep grow until they take this long, in which a lock is nothing, and shrink beyond
-// twice of that, so that no thread waits long for the last block of a chunk.
+// If threads share a sweep, their blocks grow until they take this long, against which a lock costs nothing, and shrink
+// beyond twice that, so that no thread waits long for the last block of a chunk.
 constexpr std::chrono::microseconds kBlockTime(500);
 
-// The points that threads which share a sweep in SIMD lanes take at once: at first, and at most, which is some 20 us of
-// the cheapest.
+// Threads that share a sweep in SIMD lanes take this many points at once, at first and at most. The most takes some 20
+// us where points are cheapest.
 constexpr int64_t kFirstLanePoints = 2 * RowSolver::kRowsBetweenStops;
 constexpr int64_t kMostLanePoints = 8 * RowSolver::kRowsBetweenStops;
 
@@ -81,7 +81,7 @@ class SweepRun::Impl {
   // Helps until nothing is to be done, or another needs the thread.
   void Help(absl::FunctionRef<bool()> gives_way);
 
-  // A caller who is alone leaves no block for others to wait for.
+  // Without helpers nobody waits for a block, so that blocks need not adapt.
   bool adapts_blocks() const { return helped_.most_helpers() > 0; }
   int64_t FirstBlock() const {
     if (!adapts_blocks()) return kMostPoints;

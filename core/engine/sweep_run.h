@@ -57,7 +57,7 @@ class SweepRun {
   absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough,
                                        int64_t most_bytes = kChunkBytes);
 
-  // Computes a chunk that takes as long as it takes.
+  // Computes the next chunk without a limit on its time.
   absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped) {
     return NextChunk(stopped, [] { return false; });
   }

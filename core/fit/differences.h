@@ -1,4 +1,4 @@
-// Differences: what takes the place of exact derivatives.
+// Differences: the step and the mean of difference quotients, which are used where exact derivatives do not exist.
 
 #ifndef RICOCHET_CORE_FIT_DIFFERENCES_H_
 #define RICOCHET_CORE_FIT_DIFFERENCES_H_
@@ -11,7 +11,7 @@ namespace ricochet::fit {
 // most exact.
 inline constexpr double kDifferenceStep = 6e-6;
 
-// The slope of a number where its sides may differ. A side that does not exist is NaN; without both it is 0.
+// Returns the mean slope of both sides. A side that does not exist is NaN and does not count; without both it is 0.
 inline double MeanOfSides(double below, double above) {
   if (std::isnan(below)) return std::isnan(above) ? 0.0 : above;
   return std::isnan(above) ? below : 0.5 * (below + above);

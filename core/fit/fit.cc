@@ -63,7 +63,7 @@ absl::Status CheckStart(const FitRequest& request, Model& model) {
   return InvalidRequest({{bad.field, absl::StrCat(bad.description, " in row ", row)}});
 }
 
-// Refuses a fit whose residuals have no squares: nothing else that it says would be true.
+// Refuses a fit whose squared residuals overflow, because its other numbers would be wrong.
 absl::Status CheckResiduals(const FitRequest& request, const FitResponse& response) {
   for (size_t row = 0; row < response.rows.size(); ++row) {
     const std::vector<double>& residuals = response.rows[row].residuals;
@@ -111,8 +111,8 @@ class Fitter {
     }
   }
 
-  // Steps and tolerances follow the sizes of the unknowns, which a start far from the fit does not tell. Returns true
-  // if the fit has shown an unknown to be much smaller, beyond its error.
+  // Steps and tolerances scale with the unknowns, whose sizes a start far from the fit does not tell. Returns true if
+  // the fit has shown an unknown to be much smaller, by more than its error.
   bool Rescale() {
     constexpr double kMuchSmaller = 1e-2;
     bool changes = false;
@@ -147,7 +147,7 @@ class Fitter {
     return BestPlaces(centre, all_free_, looked_at, most, model_);
   }
 
-  // Returns true if there is a better fit than before.
+  // Searches from places around `centre`. Returns true if that finds a better fit.
   bool LookAround(const std::vector<double>& centre) {
     const double before = best_.objective;
     for (const std::vector<double>& start : PlacesOf(centre, kLookedAtAlways, kStartsAlways)) SearchFurther(start);
@@ -164,7 +164,7 @@ class Fitter {
     return p_value.has_value() ? *p_value < kFitRefusedBelow : information_.chi2 > kAsGood;
   }
 
-  // Sees what the data tell at the best fit.
+  // Computes what the data tell about the unknowns at the best fit.
   void Look() {
     LinearResiduals residuals = {
         .values = {}, .slopes = {}, .sigmas = model_.Sigmas(best_.at), .held_inputs = model_.HeldInputs(best_.at)};
@@ -175,14 +175,14 @@ class Fitter {
     information_ = InformationOf(problem_, best_.at, residuals, [this] { return model_.Stops(); });
   }
 
-  // The distance at which an interval or a region should end.
+  // Returns the distance at which the end of an interval or a region is expected.
   double SizeOf(size_t k) const {
     const size_t size = problem_.unknowns();
     if (information_.is_seen[k]) return 2.0 * std::sqrt(information_.covariance[k * size + k]);
     return 0.25 * std::max(std::fabs(best_.at[k]), 0.25 * problem_.scale[k]);
   }
 
-  // The direction that holds some unknowns, which have these parts of the sizes of their intervals.
+  // Returns the direction that holds the given unknowns and moves them by these parts of the sizes of their intervals.
   Direction Towards(const std::vector<std::pair<size_t, double>>& parts) const {
     Direction direction = {.is_free = all_free_, .step = std::vector<double>(problem_.unknowns(), 0.0)};
     for (const auto& [k, part] : parts) {
@@ -218,7 +218,7 @@ class Fitter {
     return false;
   }
 
-  // Carries an end on to that of another minimum beyond it, if that one fits nearly as well.
+  // Moves the end of an interval to that of another minimum beyond it, if that one fits nearly as well.
   void Extend(size_t k, const Direction& direction, double rise, RayEnd& end) {
     const auto distance_of = [&](const Minimum& other) { return (other.at[k] - best_.at[k]) / direction.step[k]; };
     const auto is_beyond = [&](const Minimum& other) {
@@ -244,7 +244,7 @@ class Fitter {
     return true;
   }
 
-  // The best fit's number and a step, whose sum may round beside a bound that it has reached.
+  // Returns the best fit's number plus a step. A sum that rounds beside a bound is replaced by the bound.
   double PlaceOf(size_t k, double step) const {
     const double place = std::clamp(best_.at[k] + step, problem_.low[k], problem_.high[k]);
     for (const double bound : {problem_.low[k], problem_.high[k]}) {

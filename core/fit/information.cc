@@ -20,8 +20,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // them counts as 0.
 double NothingOf(const Problem& problem) { return problem.why_differences.empty() ? 1e-11 : 1e-6; }
 
-// The size of the numbers of each measured column, and of all of its kind: a velocity that is 0 is one of a contact
-// that others of its velocities tell.
+// Returns the size of the numbers of each column, at least that of all columns of its kind: a velocity that is 0
+// belongs to a contact whose other velocities tell the size.
 std::vector<double> SizesOf(const Problem& problem, const LinearResiduals& residuals) {
   std::map<std::string, double> by_kind;
   const auto size_of_kind = [&](size_t column) -> double& {
@@ -39,7 +39,7 @@ std::vector<double> SizesOf(const Problem& problem, const LinearResiduals& resid
   return sizes;
 }
 
-// An unknown with a smaller part of a combination that is not seen is seen by itself.
+// An unknown whose part of an unseen combination is smaller than this counts as seen.
 constexpr double kLeastPart = 1e-3;
 
 // The caller may stop the computation after each block of this many rows of derivatives.
@@ -77,7 +77,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
   const auto count = static_cast<Eigen::Index>(problem.numbers.size());
   const auto size = static_cast<Eigen::Index>(problem.unknowns());
   Eigen::MatrixXd slopes(count, size);
-  // The lengths of the numbers of each column in sigmas, and of their slopes.
+  // These are the lengths of the numbers of each column in sigmas, and of their slopes.
   const std::vector<double> sizes = SizesOf(problem, residuals);
   Eigen::VectorXd numbers = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(sizes.size()));
   Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(numbers.size(), size);
@@ -99,7 +99,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& at,
       fall[k] -= weight * residual * slope;
     }
   }
-  // An input that cannot move is a measured number more.
+  // An input that is held at the end of its range counts as one more measured number.
   const auto end_of_numbers = residuals.values.begin() + count;
   std::for_each(end_of_numbers, residuals.values.end(), [&](double residual) { chi2 += residual * residual; });
   Eigen::VectorXd lengths = slopes.colwise().norm().transpose();

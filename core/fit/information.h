@@ -2,8 +2,8 @@
 //
 // With the weighted residuals r(x) and J = dr/dx, the covariance of the unknowns is (J^T J)^-1, times what a robust
 // loss adds (core/fit/robust.h). J is divided by the lengths of its columns and decomposed into singular values, so
-// that no units matter: an unknown whose column is nothing, or that a combination with singular value nothing has a
-// part of, is not seen by itself and has no variance.
+// that no units matter. An unknown is not seen by itself, and has no variance, if its column of J counts as 0 or if it
+// has a part of a combination whose singular value counts as 0.
 
 #ifndef RICOCHET_CORE_FIT_INFORMATION_H_
 #define RICOCHET_CORE_FIT_INFORMATION_H_

@@ -155,7 +155,7 @@ std::string Limits(const FitRow& row) {
   return text;
 }
 
-// A sign that is wrong in one row of a table shows in that nothing strikes there.
+// Notes rows in which nothing strikes, because a wrong sign in a table has that effect.
 void NoteSeparating(const std::vector<FitRow>& rows, std::vector<std::string>& notes) {
   const auto separates = [](const FitRow& row) { return row.regime == Regime::kSeparating; };
   const auto first = std::find_if(rows.begin(), rows.end(), separates);
@@ -165,7 +165,7 @@ void NoteSeparating(const std::vector<FitRow>& rows, std::vector<std::string>& n
                                ": the normal velocity before is not negative there."));
 }
 
-// An error that all rows share, as that of a mass that was weighed once, is no error of each row.
+// An error that all rows share, such as that of a mass weighed once, is not an independent error of each row.
 void NoteSharedInputs(const Problem& problem, std::vector<std::string>& notes) {
   for (size_t i = 0; i < problem.inputs.size(); ++i) {
     const std::vector<double>& values = problem.inputs[i];

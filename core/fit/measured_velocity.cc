@@ -45,7 +45,7 @@ std::optional<MeasuredVelocity> VelocityOfContact(const Problem& problem, const 
   return measured;
 }
 
-// The contact's velocity is linear in the rates, so that each sigma changes it by what its rate does.
+// The contact velocity is linear in the rates, so that the sigma of a rate changes it as the rate itself would.
 std::optional<MeasuredVelocity> VelocityByRates(const Problem& problem, const std::vector<double>& sigmas, size_t row,
                                                 const Scene& scene) {
   const std::vector<size_t> places = MeasuredAtAll(problem, row, SystemVelocityPaths(scene.system));

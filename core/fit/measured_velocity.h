@@ -1,4 +1,4 @@
-// VelocityOf: the velocity of the contact after the impact of a row, if the row measured what tells it.
+// VelocityOf: the velocity of the contact after the impact of a row, if the row measured enough to tell it.
 
 #ifndef RICOCHET_CORE_FIT_MEASURED_VELOCITY_H_
 #define RICOCHET_CORE_FIT_MEASURED_VELOCITY_H_
@@ -18,8 +18,8 @@ struct MeasuredVelocity {
   double sigma = 0.0;  // The larger one of its components.
 };
 
-// `scene` is that of the row, `sigmas` are those of all measured numbers less the predicted ones. The velocity is told
-// by that of the contact, by those of all bodies or links in a plane, or by all rates of a mechanism.
+// `scene` is that of the row; `sigmas` belong to all measured numbers minus the predicted ones. The velocity follows
+// from that of the contact, from those of all bodies or links in a plane, or from all rates of a mechanism.
 std::optional<MeasuredVelocity> VelocityOf(const Problem& problem, const std::vector<double>& sigmas, size_t row,
                                            const Scene& scene);
 

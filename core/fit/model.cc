@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// The slope that a search can use where the sides differ.
+// Returns the slope that a search uses, which is the mean of both sides where they differ.
 double SlopeOf(const Derivative& derivative) {
   if (derivative.value.has_value()) return *derivative.value;
   return MeanOfSides(derivative.from_below.value_or(kNone), derivative.from_above.value_or(kNone));
@@ -254,7 +254,7 @@ bool Model::Exact(const std::vector<double>& unknowns, const std::vector<bool>& 
 bool Model::Sides(const std::vector<double>& unknowns, const std::vector<bool>& is_free, std::vector<double>& below,
                   std::vector<double>& above) {
   if (!SolveHere(unknowns)) return false;
-  // Each side of a free unknown is a point.
+  // Each free unknown gives two points, one on each side.
   Table points;
   for (size_t k = 0; k < unknowns.size(); ++k) {
     if (!is_free[k]) continue;

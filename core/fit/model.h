@@ -41,9 +41,9 @@ class Model {
   bool PredictRows(const std::vector<double>& unknowns, std::vector<Regime>& regimes, std::vector<double>& predicted);
   // The standard deviation of each measured number less that predicted one.
   std::vector<double> Sigmas(const std::vector<double>& unknowns);
-  // How many inputs with errors lie at the end of what their rule allows, and would go beyond.
+  // Counts the inputs with errors that are held at the end of their allowed range.
   int64_t HeldInputs(const std::vector<double>& unknowns);
-  // The rows whose outcome breaks a limit: energy appears, or friction works along the slip.
+  // Returns the rows whose outcome breaks a limit: energy appears, or friction does positive work along the slip.
   std::vector<size_t> Inadmissible(const std::vector<double>& unknowns);
   // Returns the first measured number that has no prediction for the stated inputs, and why.
   std::optional<BadRow> Bad(const std::vector<double>& unknowns);
@@ -59,7 +59,7 @@ class Model {
   const Scene& SceneOf(size_t row, const std::vector<double>& unknowns);
 
  private:
-  // All rows at each of some points, one point after the other: a column for each measured column.
+  // Solved holds all rows at each of several points, one point after the other, with a column for each measured one.
   struct Solved {
     Table columns;
     std::vector<Regime> regimes;

@@ -34,7 +34,7 @@ struct Problem {
   std::vector<std::pair<double, double>> input_ranges;  // In which each keeps its rule.
   std::vector<Number> numbers;                          // Row by row.
   std::vector<size_t> first_number;                     // That of each row, and behind the last row their count.
-  // For each unknown; bounds may be infinite. A scale is > 0 and of the size of the unknown.
+  // These have an entry for each unknown. Bounds may be infinite; a scale is > 0 and of the size of the unknown.
   std::vector<double> start, low, high, scale;
   std::vector<bool> is_angle;
   FitLoss loss = FitLoss::kSquares;

@@ -88,7 +88,7 @@ class Ray {
 
   static RayEnd End(FitEndKind kind, double distance) { return {.kind = kind, .distance = distance}; }
 
-  // The unknowns that are held at a distance, and the others as far as they stay in their bounds.
+  // Returns the held unknowns at a distance and `factor` times the others, all clamped to their bounds.
   std::vector<double> StartAt(double distance, const std::vector<double>& from, double factor) const {
     const auto [low, high] = std::tie(model_.problem().low, model_.problem().high);
     std::vector<double> start = best_.at;
@@ -98,8 +98,8 @@ class Ray {
     return start;
   }
 
-  // The unknowns at a distance, the free ones on the line through the last place inside and the one beyond it or, if
-  // there is none, the one before it.
+  // Returns the unknowns at a distance, the free ones on the line through the last place inside and the next one beyond
+  // or, if there is none, the one before.
   std::vector<double> OnLine(double distance) const {
     const Place& other = beyond_.distance > last_inside_.distance ? beyond_ : inside_before_;
     std::vector<double> at = last_inside_.at;
@@ -121,7 +121,7 @@ class Ray {
     return found;
   }
 
-  // The distance, or the least number that is held there, over its step.
+  // Returns the distance or, if that is less, the smallest held number over its step.
   double SizeAt(double distance) const {
     double size = distance;
     for (size_t k = 0; k < step_.size(); ++k) {
@@ -136,7 +136,7 @@ class Ray {
     if (IsInside(least)) {
       if (distance != last_inside_.distance) inside_before_ = std::move(last_inside_);
       last_inside_ = {distance, least.at};
-      // A place outside that lies before this one had not found the least objective, so it is dropped.
+      // A place outside that lies nearer than this one had missed the least objective, so it is dropped.
       std::erase_if(end_.computed,
                     [&](const RayPoint& point) { return point.distance <= distance && point.rise >= rise_; });
     }
@@ -159,8 +159,8 @@ class Ray {
     return Adopt(distance, least);
   }
 
-  // Sees whether a place outside is inside if the other unknowns start elsewhere: near where they ended inside last,
-  // which is closer now than when the place was looked at, or where they fit best of many places. If so, it is the new
+  // Tries whether a place outside is inside if the other unknowns start elsewhere: near where they last ended inside,
+  // which is closer now than when the place was first tried, or at the best of many places. If so, it becomes the new
   // place inside.
   bool GoesOn(const RayPoint& outside, RayPoint& inside) {
     if (!HasFree()) return false;

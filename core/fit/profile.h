@@ -34,13 +34,13 @@ struct RayEnd {
   std::optional<Minimum> better;
 };
 
-// A direction, of which the free unknowns have no part. A distance of 1 should be of the size of the end.
+// Direction moves the unknowns that are not free. A distance of 1 should be of the size of the distance to the end.
 struct Direction {
   std::vector<bool> is_free;
   std::vector<double> step;
 };
 
-// Finds the end of the ray, and then so many places evenly before it, which show how the rise grows.
+// Finds the end of the ray, and then so many places at equal distances before it, which show how the rise grows.
 RayEnd EndOfRay(const Minimum& best, const Direction& direction, double rise, int places, Model& model);
 
 }  // namespace ricochet::fit

@@ -21,7 +21,7 @@ double LogOfOnePlus(double x) {
   return sum == 1.0 ? x : Log(sum) * (x / (sum - 1.0));
 }
 
-// A residual whose square stands for what it costs, and its derivative by the residual itself.
+// Costed holds a residual whose square is its loss, and its derivative by the original residual.
 struct Costed {
   double residual = 0.0;
   double slope = 1.0;
@@ -57,14 +57,14 @@ class Residuals : public Eigen::DenseFunctor<double> {
     std::vector<double> at = start_;
     for (Index i = 0; i < x.size(); ++i) {
       const size_t k = Free(i);
-      // The product may round beyond a bound. What has not moved keeps its bits.
+      // The product may round beyond a bound, hence the clamp. An unknown that has not moved keeps its bits.
       if (x[i] == start_[k] / problem_.scale[k]) continue;
       at[k] = std::clamp(x[i] * problem_.scale[k], problem_.low[k], problem_.high[k]);
     }
     return at;
   }
 
-  // Where an impact has no such number, residuals are so large that the search turns back.
+  // If an impact lacks a measured number, the residuals are set so large that the search turns back.
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const {
     constexpr double kTurnsBack = 1e100;
     if (!model_.Residuals(Unknowns(x), residuals_)) {
@@ -82,7 +82,7 @@ class Residuals : public Eigen::DenseFunctor<double> {
     const std::vector<double> at = Unknowns(x);
     std::vector<double> of_residuals;
     slopes.setZero(values(), inputs());
-    // A fit that was stopped has no slopes, so that the search ends at once.
+    // A fit that was stopped gets no slopes, which ends the search at once.
     if (!model_.Residuals(at, residuals_) || !model_.Slopes(at, is_free_, of_residuals)) return 0;
     for (Index j = 0; j < slopes.cols(); ++j) {
       const size_t k = Free(j);
@@ -122,14 +122,14 @@ struct Step {
   bool has_turned_back = false;  // The search met a place without predictions.
 };
 
-// One search from the minimum so far, to which it sets what it finds if that is better.
+// Runs one search from the best minimum so far, which it replaces if it finds a better one.
 Step Search(const std::vector<size_t>& free, double tolerance, Model& model, Minimum& minimum) {
   const std::vector<double> start = minimum.at;
   const double before = minimum.objective;
   Residuals residuals(start, free, model);
   Eigen::LevenbergMarquardt<Residuals> search(residuals);
   search.setFtol(tolerance);
-  // Beyond these a step changes the unknowns by their rounding alone.
+  // Below these tolerances a step changes the unknowns by their rounding alone.
   search.setXtol(1e-12);
   search.setGtol(1e-14);
   search.setMaxfev(model.problem().max_iterations - minimum.iterations);
@@ -249,7 +249,7 @@ void Approach(const std::vector<double>& start, Model& model, Minimum& found) {
     if (problem.is_angle[k]) {
       move(k, start[k] + std::remainder(found.at[k] - start[k], 2.0 * std::numbers::pi));
     }
-    // A number in the range of the starts has not run off and stays where it is.
+    // A number that is still in the range of the starts is not moved.
     if (!(std::fabs(found.at[k] - start[k]) > 4.0 * problem.scale[k]) || move(k, start[k])) continue;
     constexpr int kMostHalves = 1100;  // So many halves leave nothing of the largest double.
     for (int i = 0; i < kMostHalves && move(k, start[k] + 0.5 * (found.at[k] - start[k])); ++i) continue;

@@ -26,8 +26,8 @@ constexpr double kSettled = 1e-7;
 constexpr int kMostSteps = 40;
 // Further searches look at these distances on both sides of each stated input, in sigmas.
 constexpr std::array<double, 3> kProbes = {0.75, 1.5, 3.0};
-// They start from the nearest one where a number differs from the straight lines of the first search by more than this
-// part of its sigma.
+// A further search starts from the nearest probe at which a number differs from the straight lines of the first search
+// by more than this part of its sigma.
 constexpr double kSurprise = 0.1;
 
 // The inputs that a row states, and the numbers that it measured.
@@ -72,7 +72,7 @@ class Row {
     return predicted;
   }
 
-  // Returns how far the stated inputs with errors lie above others.
+  // Returns the stated inputs with errors minus the given ones.
   VectorXd ShiftFrom(const std::vector<double>& inputs) const {
     VectorXd shift(static_cast<Index>(uncertain_.size()));
     for (Index j = 0; j < shift.size(); ++j) {
@@ -82,7 +82,7 @@ class Row {
     return shift;
   }
 
-  // NaN without a prediction.
+  // Returns NaN if a number has no prediction.
   double Objective(const VectorXd& predicted, const std::vector<double>& inputs) const {
     if (!predicted.allFinite()) return kNone;
     double sum = 0.0;
@@ -106,7 +106,7 @@ void AppendPlace(const std::vector<double>& unknowns, const std::vector<double>&
   for (size_t i = 0; i < inputs.size(); ++i) fields[unknowns.size() + i].push_back(inputs[i]);
 }
 
-// Adds a place whose input `moved` has another value.
+// Appends a place at which the input `moved` has another value.
 void AppendPlace(const std::vector<double>& unknowns, const std::vector<double>& inputs, size_t moved, double value,
                  Table& fields) {
   AppendPlace(unknowns, inputs, fields);
@@ -146,7 +146,7 @@ class Search {
     }
   }
 
-  // Takes the predictions, which stand from row `at` on.
+  // Takes over the predictions of this step, which begin at row `at` of the columns.
   void Take(const Table& columns, size_t at) {
     ++steps_;
     const VectorXd predicted = row_.PredictedIn(columns, at);
@@ -161,7 +161,7 @@ class Search {
     }
     is_done_ = !std::isfinite(attained_) || steps_ == kMostSteps || !Moves(part_);
     if (!is_done_) return Step();
-    // On a corner straight lines promise less than the inputs attain.
+    // At a corner of f the straight lines promise a smaller objective than the inputs attain.
     const double promised = best_.residuals.squaredNorm();
     const double own = attained_ - best_.held.squaredNorm();
     const bool is_on_corner = std::isfinite(attained_) && Moves(1.0);
@@ -185,7 +185,7 @@ class Search {
     return kDifferenceStep * std::max(std::fabs(inputs_[uncertain.input]), kLeastPart * uncertain.size);
   }
 
-  // J, a column for each input with an error. Beyond a rule of the scene the other side counts.
+  // Returns J with a column for each input with an error. If one side breaks a rule of the scene, the other one counts.
   MatrixXd SlopesIn(const Table& columns, size_t at, const VectorXd& predicted) const {
     MatrixXd slopes(predicted.size(), static_cast<Index>(row_.uncertain().size()));
     for (size_t j = 0; j < row_.uncertain().size(); ++j) {
@@ -199,8 +199,8 @@ class Search {
     return slopes;
   }
 
-  // The present inputs are the best ones so far. Sets where the search goes from there, too. An input that would leave
-  // its range is held, one after the other.
+  // Keeps the present inputs as the best ones so far and sets where the search goes next. Inputs that would leave their
+  // range are held, one after the other.
   void SetBest(const VectorXd& predicted) {
     best_.inputs = inputs_;
     best_.held.setZero();
@@ -223,7 +223,7 @@ class Search {
     }
   }
 
-  // Sets what the straight lines at the present inputs promise, and the target, at which those that are held stay.
+  // Sets the objective that the straight lines at the present inputs promise, and the target. Held inputs do not move.
   void SetTarget(const VectorXd& predicted, const std::vector<bool>& is_held) {
     MatrixXd free_slopes = slopes_;
     for (Index j = 0; j < free_slopes.cols(); ++j) {
@@ -275,7 +275,7 @@ class Search {
   void Step() {
     inputs_ = best_.inputs;
     for (const Row::Uncertain& uncertain : row_.uncertain()) {
-      // The last step to an end goes to the end itself.
+      // A full step goes to the target itself, because a sum could round beside it.
       inputs_[uncertain.input] = uncertain.Within(part_ == 1.0 ? target_[uncertain.input]
                                                                : inputs_[uncertain.input] + part_ * WayOf(uncertain));
     }
@@ -293,7 +293,7 @@ class Search {
   bool is_done_;
 };
 
-// Takes searches to their ends.
+// Runs the searches until each is done. Returns false once `solve` does.
 bool Run(const Problem& problem, std::deque<Search>& searches, SolveTable solve) {
   std::vector<Search*> waiting;
   for (Search& one : searches) waiting.push_back(&one);
@@ -327,8 +327,8 @@ void ForEachProbe(const Row& row, Visit visit) {
   }
 }
 
-// Adds a search to `further` from the nearest probe on each side that surprises one of `searches`, and to `of` which
-// one that is.
+// Adds to `further` a search from the nearest probe on each side at which one of `searches` meets a surprise
+// (kSurprise), and to `of` which one that is.
 bool LookFurther(const Problem& problem, const std::deque<Search>& searches, SolveTable solve,
                  std::deque<Search>& further, std::vector<size_t>& of) {
   Table fields(problem.batch.fields.size()), columns;

@@ -26,17 +26,17 @@ namespace ricochet::fit {
 
 struct SettledRow {
   std::vector<double> inputs;  // All inputs of the row; those that have errors are x.
-  // One for each number of the row; NaN if the row has no prediction.
+  // These have an entry for each number of the row, which is NaN if the row has no prediction.
   Eigen::VectorXd predicted;  // y - d, the prediction for the stated inputs by the course that x takes.
   Eigen::VectorXd sigmas;     // The standard deviations of d.
   Eigen::VectorXd residuals;  // e
   // R: the inverse of a triangular root of C, or, for a robust loss, of the symmetric one, which does not depend on the
   // order of the numbers.
   Eigen::MatrixXd whitening;
-  // For each uncertain input of the problem its shift in sigmas, if it lies at the end of what its rule allows and
-  // would go beyond; else 0. The objective counts its square, too.
+  // This has an entry for each uncertain input: its shift in sigmas if it is held at the end of its allowed range, else
+  // 0. The objective counts the square of the shift, too.
   Eigen::VectorXd held;
-  size_t held_inputs = 0;  // How many lie so. That of one whose stated value is the end has no shift.
+  size_t held_inputs = 0;  // Counts the inputs so held. One whose stated value is the end has no shift.
 };
 
 // A column for each field of the problem's batch, or for each of its columns.

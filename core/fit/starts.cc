@@ -42,7 +42,7 @@ std::vector<double> PartsOf(int number, size_t unknowns, double ratio) {
 
 bool HasBounds(const Problem& problem, size_t k) { return std::isfinite(problem.high[k] - problem.low[k]); }
 
-// The place in the direction `part`, from -1 to 1.
+// Returns the place that lies `part`, from -1 to 1, of the way from the centre to the end of its range.
 double Beside(const Problem& problem, double centre, double part, size_t k) {
   const double low = problem.low[k], high = problem.high[k];
   if (HasBounds(problem, k)) return std::clamp(centre + part * (part < 0.0 ? centre - low : high - centre), low, high);
@@ -101,7 +101,7 @@ std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, c
   for (size_t i = 0; i < order.size() && best.size() < most; ++i) {
     const double objective = objectives[order[i]];
     if (!std::isfinite(objective)) break;
-    // Where unknowns change nothing, many places fit alike, and one of them will do.
+    // If unknowns change nothing, many places fit alike, and one of them is enough.
     if (objective - last <= kAlike * std::fabs(objective)) continue;
     last = objective;
     best.push_back(places[order[i]]);

@@ -11,13 +11,13 @@
 
 namespace ricochet::fit {
 
-// The start of search `number`, from 0. The first is that of the problem. The others are spread evenly: over the
-// bounds, or from a quarter to four times the first without two of them.
+// Returns the start of search `number`, from 0. The first is that of the problem. The others are spread evenly over the
+// bounds or, if a bound is infinite, from a quarter to four times the first.
 std::vector<double> StartOf(const Problem& problem, int number);
 
-// Looks at `count` places around `centre`, the denser the nearer to it, and returns the `most` that fit best, the best
-// first; of a slow model at fewer, and fewer of them. They lie within the bounds, or without two of them from a
-// sixteenth to sixteen times the centre. Unknowns that are not free stay.
+// Looks at `count` places around `centre`, denser near it, and returns the `most` that fit best, the best first; a slow
+// model gets fewer of both. The places lie within the bounds or, if a bound is infinite, from a sixteenth to sixteen
+// times the centre. Unknowns that are not free stay.
 std::vector<std::vector<double>> BestPlaces(const std::vector<double>& centre, const std::vector<bool>& is_free,
                                             int count, size_t most, Model& model);
 

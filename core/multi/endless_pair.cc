@@ -61,7 +61,7 @@ bool IsInRange(const Problem& problem, const Pair& pair, const Attained& state) 
 bool IsEndless(const Problem& problem, const Pair& pair, double approach, const Attained& state) {
   const Eigen::Matrix2d& a = pair.a;
   if (!(a(0, 0) > 0.0 && a(1, 1) > 0.0 && a(0, 1) < 0.0 && a(1, 0) < 0.0)) return false;
-  // In a slot one contact approaches as the other parts, so that the conditions below hold, the last with equality.
+  // A singular pair has one contact that approaches as the other parts: the conditions hold, the last with equality.
   if (pair.is_singular) return pair.e.prod() > 0.0 && IsInRange(problem, pair, state);
   const double e1 = pair.e(0), e2 = pair.e(1);
   const double product = (1.0 + e1) * (1.0 + e2) * (a(0, 1) * a(1, 0) / (a(0, 0) * a(1, 1)));
@@ -75,7 +75,7 @@ bool IsEndless(const Problem& problem, const Pair& pair, double approach, const 
   return -pair.v(1) * (1.0 + e2) * (-a(0, 1) / a(1, 1)) >= approach * (smaller + e1);
 }
 
-// The normal impulses that are still to come. Nothing if there is no limit.
+// Returns the normal impulses that are still to come, or nothing if there is no limit.
 std::optional<Eigen::Vector2d> RemainingImpulses(const Pair& pair) {
   const Eigen::Matrix2d& a = pair.a;
   if (!pair.is_singular) {
@@ -136,7 +136,7 @@ void AddWorks(const Problem& problem, const Pair& pair, Attained& state) {
   }
 }
 
-// The impulses still to come are -this times the normal velocities.
+// Returns the matrix for which the impulses still to come are minus the matrix times the normal velocities.
 Eigen::Matrix2d InverseOf(const Pair& pair) {
   const Eigen::Matrix2d& a = pair.a;
   Eigen::Matrix2d inverse;

@@ -31,7 +31,7 @@ class Search {
     }
   }
 
-  // Returns false if a sequence needs more than its budget, or the stack.
+  // Returns false if a sequence exceeds its budget or the allowed depth of the recursion.
   bool Run(int64_t budget) {
     Follow(StartOf(problem_), -1, 0.0, budget);
     return !ran_out_;
@@ -56,7 +56,7 @@ class Search {
     squares.middleRows(t, d) += across;
     squares.middleCols(t, d) += across.transpose();
     squares.block(t, t, d, d) += across * by_impulses.transpose();
-    // Rounding must not part the two halves, whose difference would grow.
+    // The two halves of the matrix must stay equal, because a difference by rounding would grow.
     squares.triangularView<Eigen::StrictlyLower>() = squares.transpose();
     ContactVector own = impact.derivative.cwiseAbs() * state.slack.segment(t, d);
     for (int a = 0; a < d; ++a) {
@@ -69,7 +69,7 @@ class Search {
     state.work_error += impact.work_error;
   }
 
-  // Strikes contact i.
+  // Applies the impact of contact i to the state.
   void Strike(int i, Attained& state) {
     const int d = problem_.d;
     const int t = problem_.T(i);
@@ -106,7 +106,7 @@ class Search {
     works.compression_impulse += impact.works.compression_impulse;
   }
 
-  // The contacts that approach by more than rounding. What the others would still do is added to `left_out`.
+  // Returns the contacts that approach by more than rounding. Adds to `left_out` what the others would still do.
   std::vector<int> Approaching(const Attained& state, double& left_out) const {
     std::vector<int> contacts;
     for (int i = 0; i < problem_.k; ++i) {
@@ -242,7 +242,7 @@ class Search {
   // Remembers a state in which the contacts `next` approach, and says whether such a state was met before, by another
   // sequence or by this one. The last contact makes no difference, because it does not approach.
   Met Meet(const Attained& state, const std::vector<int>& next) {
-    // States that are apart by more than rounding may end further apart than their errors.
+    // States that differ by more than rounding may lead to outcomes that differ by more than their errors.
     const double rounding = 4.0 * kEpsilon * scale_;
     const auto is_same = [&](const Branched& other) { return AreEqual(state, other.state, rounding); };
     const auto found = std::find_if(branched_.begin(), branched_.end(), is_same);
@@ -260,7 +260,7 @@ class Search {
     return state.end != MultiContactEnd::kBudgetUsedUp && state.end != MultiContactEnd::kWedged;
   }
 
-  // Tells which of two outcomes is left out of too many: one that has not ended, then that of more impacts.
+  // If there are too many outcomes, those that have not ended are left out first, then those after more impacts.
   static bool IsLonger(const Attained& x, const Attained& y) {
     return IsEnd(x) == IsEnd(y) ? x.events > y.events : IsEnd(y);
   }
@@ -291,7 +291,7 @@ class Search {
   }
 
   static constexpr size_t kMostBranched = 1024;
-  // So many impacts take most sequences to their ends.
+  // Most sequences end within this number of impacts.
   static constexpr int64_t kImpactsOfSequence = 128;
   static constexpr int kMostNested = 64;
 

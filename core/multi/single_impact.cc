@@ -54,7 +54,7 @@ SingleImpact SolvePlane(const ContactBlock& w, const ContactLaw& law, const Cont
   return single;
 }
 
-// The least eigenvalue of W that is no rounding.
+// Returns the least eigenvalue of W that exceeds rounding.
 double LeastMobility(const ContactBlock& w) {
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(w, Eigen::EigenvaluesOnly).eigenvalues();
@@ -99,7 +99,7 @@ SingleImpact SolveOne(const ContactBlock& w, const ContactLaw& law, const Contac
   return w.rows() == 2 ? SolvePlane(w, law, x) : SolveSpace(w, law, x);
 }
 
-// Sets D. Without friction it is known.
+// Sets D, which has a closed form without friction.
 void SetDerivative(const ContactBlock& w, const ContactLaw& law, const ContactVector& x, SingleImpact& single) {
   const auto d = x.size();
   ContactBlock& derivative = single.derivative;

@@ -31,7 +31,7 @@ constexpr double kNoWidth = 1e-11;
 constexpr double kPi = 3.141592653589793;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A sum of products with the rounding of one. Terms that cancel leave nothing, in whichever order they are added.
+// Sum adds products with a single rounding. Terms that cancel leave exactly 0, in whatever order they are added.
 class Sum {
  public:
   void Add(double x, double y) {
@@ -58,7 +58,7 @@ double PowerAbove(double size) { return size > 0.0 ? std::scalbn(1.0, std::min(s
 // The power of four at or below the size of a number > 0, whose root is a power of two.
 double PowerOfFourBelow(double size) { return std::scalbn(1.0, std::ilogb(size) & ~1); }
 
-// The order as text, up to a number of impacts that somebody may still read.
+// Returns the order as text, cut after as many impacts as somebody may still read.
 std::string OrderText(const std::vector<int>& order, int repeats_from, const SortedProblem& sorted) {
   constexpr size_t kMostInText = 64;
   std::string text;
@@ -72,7 +72,7 @@ std::string OrderText(const std::vector<int>& order, int repeats_from, const Sor
   return text.empty() ? "none" : text;
 }
 
-// The answer for one state.
+// Answerer computes the answer for one state.
 class Answerer {
  public:
   Answerer(const MultiContactRequest& request, const MultiReduction& reduction, Eigen::VectorXd velocity,
@@ -115,7 +115,7 @@ class Answerer {
   }
 
  private:
-  // Made when they are first needed.
+  // The outputs are computed when they are first needed.
   const std::vector<Output>& Outputs() {
     if (outputs_.empty()) outputs_ = OutputsOf(request_, reduction_, velocity_, sorted_, metric_, w_scale_);
     return outputs_;
@@ -169,7 +169,7 @@ class Answerer {
                                .work_error_j = attained.work_error * EnergyScale(),
                                .error_is_proved = attained.error_is_proved};
     Vector error(attained.v.size());
-    // An error beyond all energy or impulse that there is says nothing.
+    // An error larger than the whole energy or impulse tells nothing, so it counts as unknown.
     if (!(outcome.work_error_j <= answer_.energy_before_j)) outcome.work_error_j = kInfinity;
     for (int j = 0; j < error.size(); ++j) error(j) = KnownError(attained.ErrorOf(problem, j) * v_scale_);
     // Adding 0 makes -0 positive.
@@ -179,7 +179,7 @@ class Answerer {
     outcome.contact_velocity_error_m_s.assign(in_scene.begin(), in_scene.end());
     if (!std::holds_alternative<ContactMatrix>(request_.scene.system)) AddVelocities(attained, outcome);
     if (attained.end == MultiContactEnd::kWedged) {
-      // The impulse has no end, and the energy is that of the velocity.
+      // The impulse grows without end, so that the change of energy is taken from the velocity.
       Problem after = problem;
       after.v = attained.v;
       outcome.energy_change_j = 0.5 * (MetricOf(after).y.squaredNorm() - metric_.y.squaredNorm()) * EnergyScale();
@@ -254,7 +254,7 @@ class Answerer {
         outcome.orders.push_back(OrderText(distinct.orders[i], distinct.repeats_from[i], sorted_));
       }
     }
-    // Those that ended come first.
+    // Outcomes of orders that have ended come first.
     std::sort(answer_.orders.begin(), answer_.orders.end(), [](const AttainedOutcome& x, const AttainedOutcome& y) {
       return IsAttained(x) != IsAttained(y) ? IsAttained(x) : x.orders < y.orders;
     });
@@ -276,7 +276,7 @@ class Answerer {
       }
       return OutcomeOf(FindSprings(problem, MirrorOf(problem), stopped_));
     };
-    // A state on the way tells nothing of the outcome.
+    // A state before the end tells nothing about the outcome.
     const auto difference = [&](const AttainedOutcome& x, const AttainedOutcome& y) {
       return IsAttained(x) && IsAttained(y) && Differ(x, y) ? Largest(x, y).over_scale : 0.0;
     };
@@ -345,7 +345,7 @@ class Answerer {
   // The size of a velocity with this mobility in the states asked for.
   double ScaleOf(double mobility) const { return metric_.root_energy * std::sqrt(mobility) * v_scale_; }
 
-  // The output in which two outcomes differ most, over its scale.
+  // Returns the output in which two outcomes differ most, over its scale.
   Difference Largest(const AttainedOutcome& x, const AttainedOutcome& y) {
     Difference largest;
     for (size_t i = 0; i < Outputs().size(); ++i) {

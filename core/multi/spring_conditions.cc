@@ -6,7 +6,7 @@
 namespace ricochet::multi {
 namespace {
 
-// Sets a coefficient to 0 that an event made 0. It may exceed rounding where another mode divides friction differently.
+// Sets to 0 a coefficient that an event made 0. It may exceed rounding if another mode divides friction differently.
 void TakeForZero(size_t m, Series& series) {
   double largest = 0.0;
   for (const double c : series.c) largest = std::max(largest, std::abs(c));
@@ -27,7 +27,7 @@ std::vector<Condition> ConditionsOf(const Problem& problem, const Modes& modes, 
     const bool is_event = event.has_value() && event->contacts[At(contact)] && event->keeps == keeps;
     const bool has_tie = event.has_value() && event->has_tie;
     if (is_event || (has_tie && IsCone(keeps))) TakeForZero(0, condition.series);
-    // Where all friction is used up, slip starts without an acceleration.
+    // Slip that starts where all friction is used up has no acceleration at first.
     if (has_tie && keeps == Keeps::kSlip) TakeForZero(1, condition.series);
     condition.lead = condition.series.Lead();
   };

@@ -29,7 +29,7 @@ struct Condition {
   int lead = 0;
 };
 
-// The condition that is 0 by an event at which the state is, and the contacts that it is 0 for.
+// Event names the condition that is 0 because of the event at the present state, and the contacts for which it is 0.
 struct Event {
   std::bitset<kMostContacts> contacts;
   Keeps keeps = Keeps::kGap;
@@ -43,8 +43,8 @@ std::vector<Condition> ConditionsOf(const Problem& problem, const Modes& modes, 
 // True if a plastic contact stops approaching: its force falls at once.
 bool Falls(const Condition& condition, const Problem& problem, const SpringState& state);
 
-// The condition that is broken at the lowest order, or null. Plastic contacts that stop approaching come last: their
-// forces fall, and that changes the state.
+// Returns the condition that is broken at the lowest order, or null. Plastic contacts that stop approaching come last:
+// their forces fall, and that changes the state.
 const Condition* Broken(const std::vector<Condition>& conditions, const Problem& problem, const SpringState& state);
 
 // Changes the mode of the contact that breaks the condition under this force.

@@ -41,7 +41,7 @@ struct Series {
   std::array<double, kSeriesOrder + 1> c;
   std::array<double, kSeriesOrder + 1> noise;
 
-  // The first coefficient that is more than noise, or kSeriesOrder + 1 if there is none.
+  // Returns the order of the first coefficient that exceeds its noise, or kSeriesOrder + 1 if there is none.
   int Lead() const;
   double At(double s) const;
   // The integral from 0 to s.
@@ -71,9 +71,9 @@ class SpringFlow {
   bool split_is_free() const { return split_is_free_; }
   // The rate at which friction may let an error of the state grow, in the metric of energy.
   double growth_rate() const { return growth_rate_; }
-  // How the normal acceleration of contact i depends on the force of contact j.
+  // Returns the normal acceleration of contact i for a unit force at contact j.
   double NormalByForce(int i, int j) const { return by_force_(2 * i + 1, j); }
-  // The magnitude of the terms that this is a sum of.
+  // Returns the sum of the magnitudes of the terms of NormalByForce.
   double SizeOfNormalByForce(int i, int j) const { return size_(2 * i + 1, j); }
   double TangentialByForce(int i, int j) const { return by_force_(Eigen::Index{2} * i, j); }
   double FrictionByForce(int i, int j) const { return friction_(i, j); }

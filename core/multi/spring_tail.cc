@@ -37,7 +37,7 @@ double BetaOf(const Problem& problem) {
       b(i, j) = problem.w(2 * i + 1, 2 * j + 1) - std::max(drag(i, j), drag(j, i));
     }
   }
-  // The rounding of B and of the search.
+  // This subtracts a bound on the rounding of B and of the search.
   return LeastOnSimplex(b) - 64.0 * kEpsilon * b.cwiseAbs().maxCoeff();
 }
 

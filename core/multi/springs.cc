@@ -21,18 +21,18 @@ namespace {
 constexpr double kVelocityRounding = 64.0;
 // After fewer events than these a motion is not one without end.
 constexpr int64_t kLeastOfEndless = 12;
-// An error above this part of the velocities' scale is estimated from a second motion beside the first.
+// If the error exceeds this part of the velocities' scale, it is estimated by a second, perturbed motion.
 constexpr double kLargeError = 1e-9;
-// After so many steps that change nothing a motion would go round for ever.
+// A motion that repeats this many steps without any change is ended, because it would go on for ever.
 constexpr int kMostRepeated = 4;
 // A coefficient below this gives a rebound that the rounding of velocities hides: the contact is plastic.
 constexpr double kLeastCoefficient = 0x1p-40;
-// Combinations of modes that are tried where changing one mode after the other does not settle.
+// At most this many combinations of modes are tried if changing one mode after the other does not settle.
 constexpr int64_t kMostModes = 6561;
 
 class Motion {
  public:
-  // The velocities are off by `push` times the bound on their rounding, to and fro from step to step.
+  // Perturbs the velocities by `push` times the bound on their rounding; the sign alternates from step to step.
   Motion(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped,
          double push = 0.0)
       : problem_(problem),
@@ -47,7 +47,7 @@ class Motion {
     for (int i = 0; i < k_; ++i) modes_[At(i)].normal = NormalMode::kOpen;
   }
 
-  // The errors of all steps and events before any growth.
+  // Returns the sum of the errors that steps and events have made, without any growth afterwards.
   double made() const { return made_; }
   int64_t steps() const { return steps_; }
   // True if the force of a plastic contact has fallen, and if friction changed its mode while it fell.
@@ -99,7 +99,7 @@ class Motion {
 
   // --- Modes ---
 
-  // The modes that the signs of the state leave open, for each contact: its own first.
+  // Returns the modes of contact i that the signs of the state allow, its present mode first.
   std::vector<ContactMode> OptionsOf(int i) const {
     const double force = state_.f[At(i)];
     std::vector<NormalMode> normals;
@@ -225,7 +225,7 @@ class Motion {
     return true;
   }
 
-  // How far the forces of `falling` may fall until friction changes its mode. Slopes are those of the flow.
+  // Returns how far the forces of `falling` may fall until friction changes its mode, by the slopes of the flow.
   double FallUntilFrictionChanges(const std::vector<int>& falling) const {
     double most = state_.f[At(falling[0])];
     for (int l = 0; l < k_; ++l) {
@@ -603,8 +603,8 @@ class Motion {
 
   bool IsSlow() const { return SpeedOfApproach() <= 1e-9 * problem_.v.cwiseAbs().maxCoeff(); }
 
-  // Ends a motion that goes round in events that change nothing, as rounding may make it do. If it is slow, only
-  // rounding is left of it.
+  // Ends a motion that goes through the same events again and again without a change, which rounding can cause. If the
+  // motion is slow, only rounding is left of it.
   bool HasStalled() {
     const bool is_same =
         modes_ == modes_before_ && state_.p == before_.p && state_.f == before_.f && state_.g == before_.g;
@@ -669,7 +669,7 @@ class Motion {
   bool has_fallen_ = false, friction_changed_ = false;
 };
 
-// The largest component of a velocity over the root of its mobility: its size in the metric of energy.
+// Returns the largest component of a velocity over the root of its mobility: its size in the metric of energy.
 double SizeOf(const Problem& problem, const Vector& v) {
   double size = 0.0;
   for (int j = 0; j < v.size(); ++j) {

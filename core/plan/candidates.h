@@ -1,8 +1,8 @@
 // Candidates: the models that a plan may choose, for each kind of contact from the cheapest to the most expensive.
 //
 // The order is that of the times that `cost` measures and that the models need in SIMD lanes; `./dev bench` compares it
-// with `cost`. A plan takes the first candidate that its demand allows, so that a model which an earlier one beats
-// in error, too, answers only where the earlier one leaves out more.
+// with `cost`. A plan takes the first candidate that its demand allows. A model that is slower and less exact than an
+// earlier one therefore answers only where the earlier one leaves out more.
 
 #ifndef RICOCHET_CORE_PLAN_CANDIDATES_H_
 #define RICOCHET_CORE_PLAN_CANDIDATES_H_
@@ -34,8 +34,8 @@ inline constexpr Candidate kPlanarCandidates[] = {
     {Model::kFiniteDuration, kDurationEffects},
 };
 
-// With friction, the forms of a pendulum without it and of first order are slower and less exact than the closed form.
-// They serve where the caller excludes the higher orders, which the closed form has.
+// With friction, a pendulum's frictionless and first-order forms are slower and less exact than the closed form. They
+// serve only if the caller excludes the higher orders, which the closed form contains.
 inline constexpr Candidate kPendulumCandidates[] = {
     {Model::kPendulum, kPlanarEffects},
     {Model::kFrictionless, {}},
@@ -44,7 +44,7 @@ inline constexpr Candidate kPendulumCandidates[] = {
     {Model::kFiniteDuration, kDurationEffects},
 };
 
-// Without friction, the form without it has half the rounding errors of the closed form.
+// Without friction, the frictionless form has half the rounding errors of the closed form.
 inline constexpr Candidate kSmoothPendulumCandidates[] = {
     {Model::kFrictionless, {}},
     {Model::kPendulum, kPlanarEffects},

@@ -189,7 +189,7 @@ bool SlidesTooFar(const Problem& problem, const Sizes& sizes, EffectSet excluded
   return sliding::FrictionPushes(SlidingProblemOf(problem));
 }
 
-// The error of a model beyond the rigid impact: none that the plan has to count, if the contact has the springs for it.
+// Returns 0 if the contact has the springs of a model beyond the rigid impact, whose error the plan does not count.
 double ErrorBeyondRigid(Model model, const ContactPhysics& physics) {
   const bool applies = model == Model::kCompliant ? physics.ratio_squared > 0.0
                                                   : !std::holds_alternative<std::monostate>(physics.spring);

@@ -1,4 +1,4 @@
-// SceneOf: the scene that states the problem of a model, for what starts from a scene, as a certificate does.
+// SceneOf: the scene that states a model's problem, for code that starts from a scene, such as certificates.
 
 #ifndef RICOCHET_CORE_PLAN_CONTACT_SCENE_H_
 #define RICOCHET_CORE_PLAN_CONTACT_SCENE_H_

@@ -8,7 +8,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/contact/scene_contact.h"
-#include "core/models/finite_duration/finite_duration.h"
 #include "core/plan/planned_scene.h"
 #include "core/plan/scene_problem.h"
 #include "core/scene/check.h"
@@ -69,20 +68,12 @@ Violation Refuse(std::string path, Effect effect, std::string rule) {
   return MakeViolation(std::move(path), absl::StrCat("= ", NameOf(effect)), std::move(rule));
 }
 
-// The excluded effect that leaves out `effect`.
+// Returns the excluded effect because of which `effect` is left out.
 Effect CauseOf(Effect effect, EffectSet excluded, bool in_space) {
   for (const Effect cause : kEffects) {
     if (excluded.Has(cause) && WithImplied({cause}, in_space).Has(effect)) return cause;
   }
   return effect;
-}
-
-// Refuses a normal spring, whatever the tolerance leaves of it, if the program cannot follow an impact in time.
-void CheckComponents(const Scene& scene, std::vector<Violation>& violations) {
-  if (finite_duration::IsAvailable() || !MissingPart(scene, Effect::kFiniteDuration).empty()) return;
-  violations.push_back(
-      MakeViolation("compliance.normal", "is set",
-                    absl::StrCat("not be, ", finite_duration::WhyUnavailable(), " (component finite_duration)")));
 }
 
 void CheckRequired(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {
@@ -170,7 +161,6 @@ std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContac
     ForEach(demand.excluded, "excluded", refuse);
     return violations;
   }
-  CheckComponents(scene, violations);
   if (demand.IsToleranceAlone()) return violations;
   CheckRequired(scene, demand, violations);
   if (CheckExcluded(scene, demand, violations) && violations.empty()) {

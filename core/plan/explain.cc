@@ -17,7 +17,7 @@ Basis BasisOf(Effect effect, const PlannedEffects::Facts& facts) {
   return static_cast<Basis>(facts[static_cast<size_t>(effect)].basis);
 }
 
-// The facts belong to a contact of one of these kinds.
+// Names the kind of contact to which the facts of a plan belong.
 enum class ContactKind { kPlanar, kPendulum, kSpatial };
 
 ContactKind KindOf(const PlannedEffects::Facts& facts) {

@@ -1,4 +1,4 @@
-// Explain: a choice in words.
+// Explain: writes the reasons for the choice of a plan in words.
 
 #ifndef RICOCHET_CORE_PLAN_EXPLAIN_H_
 #define RICOCHET_CORE_PLAN_EXPLAIN_H_

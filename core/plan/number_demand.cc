@@ -7,7 +7,7 @@
 namespace ricochet {
 namespace {
 
-// Says what stands against an effect that a number needs.
+// Says which effect a number needs, and which rule of the request stands against it.
 std::string Against(Effect effect, const Violation& violation) {
   const std::string needs = absl::StrCat("needs ", NameOf(effect), ", ");
   if (!absl::StartsWith(violation.field, "required")) {

@@ -22,9 +22,9 @@ constexpr size_t kMostLanes = 64;   // No vector has more lanes.
 constexpr double kLimit = 0x1p100;  // The largest magnitude, and the inverse of the least.
 // Covers the rounding of both sides of a comparison, and the padding of a size (core/plan/perturbed_path.h).
 constexpr double kMargin = 0x1p-19;
-// A slope from which on the bounds are sure: the sizes of the plan need one of 2^-20 (kLeastSlope).
+// From this slope on the bounds are sure; the sizes of the plan require at least 2^-20 (kLeastSlope).
 constexpr double kSureSlope = 0x1p-10;
-// The largest slope, and some, for which neither model of a straight path serves.
+// Below this slope, which includes a margin, neither model of a straight path serves.
 constexpr double kSteep = 0x1p-21;
 // Covers the rounding of a slip, relative to its terms, for slopes of at least kSureSlope.
 constexpr double kSlipRounding = 0x1p-30;
@@ -110,14 +110,14 @@ HWY_INLINE V ChooseApproaching(const Contact<V>& in, double tolerance) {
   const V u_terms = drive + coupling;
   const V braking = drive - along;
   const V least_slope = one - in.mu * coupling;
-  // The tolerance in the scale in which |v0| = 1.
+  // This is the tolerance, with a margin, in the scale in which |v0| = 1.
   const V most = Fill<V>(tolerance * (1.0 + kMargin));
-  // Bounds on a tolerated error times V.
+  // These bound a tolerated error times V from above and from below.
   const V scale = Larger(Absolute(in.u0), speed);
   const V loose = Fill<V>(tolerance * (1.0 + kMargin)) * scale;
   const V tight = Fill<V>(tolerance * (1.0 - kMargin)) * scale;
 
-  // Neither straight path serves beyond these limits.
+  // Beyond these limits neither model of a straight path serves.
   const auto is_steep = Either(one < in.coefficient, least_slope < Fill<V>(kSteep));
   // Friction changes the impact by at least min(drive, coupling) and by drive min(1, slip/u_terms).
   const auto rubs = Both(most < drive, Either(most < coupling, most * u_terms < drive * slip));

@@ -15,7 +15,7 @@ constexpr PlannedArithmetic kOnlyArithmetic = {.arithmetic = Arithmetic::kPlain,
 
 bool IsAnsweredInTime(Model model) { return model == Model::kCompliant || model == Model::kFiniteDuration; }
 
-// A plan is large, so that each of these makes it in place.
+// A plan is large to copy, so that each of these functions makes it in place.
 PlannedScene PlanPendulum(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
   const pendulum::Problem problem = ClosedFormProblem(scene);
   EffectiveCoefficients effective = {.kinetic_friction = problem.mu, .static_friction = problem.mu_static};

@@ -15,12 +15,12 @@ namespace ricochet {
 // True if the closed form of the pendulum answers the scene: a pendulum over a surface at rest, without an impact law.
 bool HasClosedForm(const Scene& scene);
 
-// The pendulum's problem with the coefficients at the approach speed. `scene` must be valid and HasClosedForm.
+// Returns the pendulum's problem with the coefficients at the approach speed. `scene` must be valid and HasClosedForm.
 pendulum::Problem ClosedFormProblem(const Scene& scene);
 
 namespace pendulum {
 
-// The problem of a scene that states a pendulum and a coefficient; a scene without one gets kEnergetic, 0.
+// Returns the problem of a scene that states a pendulum. A scene without a coefficient gets kEnergetic, 0.
 Problem MakeProblem(const Scene& scene);
 
 }  // namespace pendulum

@@ -98,7 +98,7 @@ struct Turn {
   double least_slip = 0.0;
 };
 
-// The bounds that follow if |phi - phi0| <= angle is supposed.
+// Returns the bounds that follow from the assumption |phi - phi0| <= angle.
 Turn Supposing(const Scaled& contact, double angle) {
   const double spread = contact.mu * contact.mobility.coupling * std::min(angle, 2.0);
   const double low = contact.SlideSlope() - spread;
@@ -114,8 +114,8 @@ Turn Supposing(const Scaled& contact, double angle) {
   return {.angle = contact.turning * passed / left * (1.0 + 0x1p-20), .least_slip = std::min(contact.slip, end)};
 }
 
-// Tries a few angles and returns the bounds of the smallest one that proves itself. Where nothing follows from an
-// angle, nothing follows from a larger one.
+// Tries a few angles and returns the bounds for the smallest one that confirms its own assumption. If nothing follows
+// from an angle, nothing follows from a larger one.
 Turn LargestTurn(const Scaled& contact) {
   if (!(contact.slip > 0.0)) return {};
   double angle = 1.5 * contact.turning / (contact.slip * contact.SlideSlope());

@@ -25,7 +25,7 @@
 namespace ricochet {
 namespace {
 
-// Shape is the length of the lists that an outcome of the system has.
+// Shape holds the lengths of the lists of an outcome of the system.
 struct Shape {
   size_t rates = 0;
   size_t bodies = 0;
@@ -93,7 +93,7 @@ constexpr std::pair<const char*, const char*> kOwners[] = {
     {"effective.restitution", "the damping of compliance.hunt_crossley stands for the coefficient of restitution"},
 };
 
-// Says what must be otherwise if the number is to be a column of the scene.
+// Returns the rule that the path breaks as a column of the scene.
 std::string RuleFor(const Scene& scene, const std::string& path, const std::vector<std::string>& all) {
   const std::string lacking = LackingForNumber(scene, path);
   const bool exists = std::find(all.begin(), all.end(), path) != all.end();

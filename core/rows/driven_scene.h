@@ -31,7 +31,7 @@ class DrivenScene {
   // system, which is then the only violation. The last two arguments are as in DrivenFields.
   DrivenScene(const Scene& scene, const std::vector<std::string>& paths, DrivenFields::NameOf name_of,
               const char* member);
-  // For a request that has been checked.
+  // This constructor is for a request that has been checked.
   DrivenScene(const Scene& scene, const std::vector<std::string>& paths);
   DrivenScene(const DrivenScene&) = delete;
   DrivenScene& operator=(const DrivenScene&) = delete;
@@ -46,8 +46,8 @@ class DrivenScene {
   const Scene& scene() const { return scene_; }
   const DrivenFields& fields() const { return fields_; }
 
-  // The functions below require that there are no violations, and that the base scene has only ones that can be cured.
-  // Sets the field of one path. Returns false if its value breaks the rule of its number.
+  // The functions below require that violations() is empty and that fields can cure every violation of the base scene.
+  // Set sets the field of one path. It returns false if the value breaks the rule of its number.
   bool Set(size_t k, double value);
   // Sets all fields to row `i` of their columns. A field that has its value already costs nothing.
   void SetRow(absl::Span<const FieldColumn> columns, size_t i);

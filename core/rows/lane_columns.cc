@@ -11,7 +11,7 @@ namespace ricochet {
 
 static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// The place of the number that the field at `path` sets. An axis may drive any definition of restitution.
+// Returns the place of the number that the field at `path` sets. All definitions of restitution share one place.
 static size_t NumberAt(absl::string_view path, const std::vector<std::string>& paths) {
   if (absl::StartsWith(path, "restitution.")) return paths.size() - 1;
   return static_cast<size_t>(std::find(paths.begin(), paths.end(), path) - paths.begin());
@@ -63,14 +63,14 @@ void LaneColumns::SetField(size_t k, const FieldColumn& field, size_t count) {
   }
 }
 
-// Writes the numbers of a derived field, NaN if it may not have the value.
+// Writes the numbers of a derived field, or NaN if the field may not have the value.
 void LaneColumns::SetDerived(size_t k, double value, size_t from, size_t count) {
   const bool is_good = driven_.Set(k, value);
   const SceneLanes::Numbers numbers = lanes_.NumbersOf(driven_.scene());
   for (const size_t n : numbers_of_[k]) std::fill_n(numbers_[n].data() + from, count, is_good ? numbers[n] : kNan);
 }
 
-// Takes the numbers of scenes whose coefficients depend on the speed. No lanes take those of a row that is not valid.
+// Fills the columns from scenes whose coefficients depend on the speed. Invalid rows get NaN, which no lanes take.
 void LaneColumns::SetFromScenes(absl::Span<const FieldColumn> fields, size_t count) {
   for (size_t i = 0; i < count; ++i) {
     driven_.SetRow(fields, i);

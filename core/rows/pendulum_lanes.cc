@@ -22,10 +22,10 @@ bool IsSurelyValid(const Problem& x) {
          x.inertia > 0.0 && x.a > 0.0 && KeepCoefficientRules(x.mu, x.mu_static, x.law, x.coefficient);
 }
 
-// How the lanes answer a problem.
+// Answer names the formula by which the lanes solve a problem; kNone leaves the problem to the caller.
 enum class Answer { kClosedForm, kFirstOrder, kNone };
 
-// The forms of first order are those without friction, too.
+// The first-order forms also solve problems without friction.
 Answer AnswerBy(Model model) {
   if (model == Model::kUnspecified) return Answer::kNone;
   return model == Model::kPendulum || model == Model::kNone ? Answer::kClosedForm : Answer::kFirstOrder;

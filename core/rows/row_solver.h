@@ -96,7 +96,7 @@ class RowSolver {
   const std::vector<size_t> others_;  // The columns that are no derivatives.
   std::vector<double> numbers_;       // The columns of one row.
 
-  // Null if the rows need a scene each.
+  // These are null if each row needs a scene of its own.
   std::unique_ptr<SceneLanes> lanes_;
   std::unique_ptr<LaneColumns> lane_columns_;
 
@@ -107,9 +107,9 @@ class RowSolver {
   absl::Span<const FieldColumn> fields_;
   std::vector<double*> places_;        // The places of the first row's value in each column,
   std::vector<double*> other_places_;  // and in those that are no derivatives.
-  // A column is an error of the velocities or the momentum of a mechanism, which take all of an outcome's detail.
+  // True if a column is an error of a mechanism's velocities or momentum, which needs the whole detail of an outcome.
   const bool asks_rates_errors_;
-  const bool asks_free_end_;  // A column is a number of the end with no coordinate held.
+  const bool asks_free_end_;  // True if a column is a number of the free end.
   SceneLanes::Block block_;
   std::array<RowStatus, kBlock> statuses_;
   std::array<std::optional<size_t>, kBlock> too_large_;  // The column that makes a row not representable, if one does.

@@ -29,7 +29,7 @@ class SceneLanes {
  public:
   // Scenes are solved in blocks of at most this many.
   static constexpr size_t kBlock = 256;
-  // Two bodies in a plane have the most, beside the last three of all lanes.
+  // Two bodies in a plane have the most numbers, beside the three that all lanes add at the end.
   static constexpr size_t kMostNumbers = 2 * kNumbersOf<PlanarBody> + 3;
 
   // The numbers of a scene: those of its system in the order of core/scene/numbers.h, kinetic friction, static friction
@@ -46,11 +46,11 @@ class SceneLanes {
   struct Block {
     std::array<Model, kBlock> models;
     std::array<Regime, kBlock> regimes;
-    // A scene that is left has the value of an earlier block, or false.
+    // The entry of a scene that is left is that of an earlier block, or false.
     std::array<bool, kBlock> inadmissible = {};
     bool is_complete = false;  // No scene is left, and every number is finite.
-    // It is complete, and the model, the regime and the admissibility of all are those of the first. False if that is
-    // not known.
+    // True if the block is complete, and all scenes have the model, the regime and the admissibility of the first.
+    // False if that is not known.
     bool is_uniform = false;
   };
 

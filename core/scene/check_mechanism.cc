@@ -16,13 +16,13 @@ constexpr char kMass[] = "mechanism.mass_matrix";
 constexpr char kJacobian[] = "mechanism.jacobian";
 constexpr char kKept[] = "mechanism.kept_coordinates";
 
-// How far the entries of a free body's part of M and J may be off, relative to its mass or to 1: matrices that were
-// rounded to single precision are taken.
+// The entries of a free body's part of M and J may be off by this much, relative to its mass or to 1, so that matrices
+// that were rounded to single precision are accepted.
 constexpr double kBaseRounding = 1e-6;
 
 std::string EntryOf(const char* field, size_t entry) { return absl::StrCat(field, "[", entry, "]"); }
 
-// Returns whether M, J and q' go together.
+// Returns whether the sizes of M, J and q' agree.
 bool CheckSizes(const Mechanism& mechanism, size_t contacts, Check& check) {
   const size_t n = mechanism.rates.size();
   check.Require(n > 0, [] { return MakeViolation("mechanism.rates", "has 0 entries", "have at least one"); });

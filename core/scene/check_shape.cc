@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// How far the largest principal moment may exceed the sum of the other two, divided by the sum of all three: tensors of
-// plates and rods that were rounded to single precision are taken.
+// The largest principal moment may exceed the sum of the other two by this share of the sum of all three, so that
+// tensors of plates and rods that were rounded to single precision are accepted.
 constexpr double kMomentRounding = 1e-6;
 
 std::string ListText(const std::vector<double>& values) {

@@ -21,9 +21,9 @@ namespace ricochet {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// How far the stiffnesses of a range may lie apart.
+// The largest stiffness of a range may be at most this many times the smallest.
 constexpr double kMostStiffnessRatio = 1e12;
-// Forces that friction adds to each other must not leave the doubles.
+// Larger coefficients could make the forces of coupled contacts exceed the range of doubles.
 constexpr double kMostFriction = 1e9;
 
 std::string Entry(const char* list, size_t index, const char* field) {

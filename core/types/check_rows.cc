@@ -19,7 +19,7 @@ void CheckCount(const char* list, size_t found, size_t wanted, const char* named
                                      absl::StrCat("have ", wanted, ", one for each of ", named)));
 }
 
-// `name` is asked for if the column is wrong.
+// `name` makes a text, so it is called only if the column is wrong.
 void CheckLength(size_t found, size_t rows, absl::FunctionRef<std::string()> name, std::vector<Violation>& violations) {
   if (found == rows || IsFull(violations)) return;
   violations.push_back(MakeViolation(name(), absl::StrCat("has ", Counted(found, "row")),
@@ -56,7 +56,7 @@ std::vector<Memory> MemoriesOf(const char* list, const Columns& columns) {
   return memories;
 }
 
-// An output is written before all inputs of its rows are read.
+// Outputs must not overlap other columns, because they are written before all inputs are read.
 void CheckApart(const BatchRows& rows, std::vector<Violation>& violations) {
   std::vector<Memory> others = MemoriesOf("inputs", rows.inputs);
   for (const Memory& output : MemoriesOf("outputs", rows.outputs)) {

@@ -1,4 +1,4 @@
-// CheckRows: whether the columns of a batch fit its setup and each other.
+// CheckRows: checks whether the columns of a batch fit its setup and each other.
 
 #ifndef RICOCHET_CORE_TYPES_CHECK_ROWS_H_
 #define RICOCHET_CORE_TYPES_CHECK_ROWS_H_

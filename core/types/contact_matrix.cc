@@ -11,7 +11,7 @@
 namespace ricochet {
 namespace {
 
-// How far two entries across the diagonal may differ, over the largest entry of the diagonal.
+// Two entries across the diagonal may differ by this part of the largest entry on the diagonal.
 constexpr double kSymmetric = 1e-9;
 
 absl::Status CheckSymmetric(std::span<const double> w, size_t rows, std::string_view frame) {

@@ -1,4 +1,4 @@
-// Whether an outcome of several contacts has an end, and the names of the numbers of an answer, in their order.
+// Says whether an outcome of several contacts has an end, and names the numbers of an answer, in their order.
 
 #ifndef RICOCHET_CORE_TYPES_MULTI_CONTACT_H_
 #define RICOCHET_CORE_TYPES_MULTI_CONTACT_H_
@@ -11,16 +11,16 @@
 
 namespace ricochet {
 
-// True unless the numbers are those of a state on the way to an end that is not known.
+// False if the end is not known, so that the numbers are those of a state on the way to it.
 constexpr bool HasEnd(MultiContactEnd end) {
   return end != MultiContactEnd::kBudgetUsedUp && end != MultiContactEnd::kUndetermined;
 }
 
-// "contact_1.t", "contact_1.n", ... or t1, t2 and n.
+// Returns "contact_1.t", "contact_1.n", ... in a plane; in space t1, t2 and n take the place of t and n.
 std::vector<std::string> ContactOutputNames(size_t contacts, int directions);
 
-// "body_1.x", "body_1.y", "body_1.rate", ... or x, y, z, rate_x, rate_y, rate_z; "rate_1", ... of a mechanism. None of
-// a ContactMatrix, whose velocities are those of its contacts.
+// Returns "body_1.x", "body_1.y", "body_1.rate", ..., in space x, y, z, rate_x, rate_y, rate_z; "rate_1", ... for a
+// mechanism; and nothing for a ContactMatrix, whose only velocities are those of its contacts.
 std::vector<std::string> SystemOutputNames(const MultiContactSystem& system, int directions);
 
 }  // namespace ricochet

@@ -11,11 +11,7 @@
 
 namespace ricochet {
 
-template <>
-struct Map<LimitCheck> : Between<LimitCheck, v1::LimitCheck> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(value), RICOCHET_FIELD(limit), RICOCHET_FIELD(excess),
-                                          RICOCHET_FIELD(allowance), RICOCHET_FIELD(verdict));
-};
+RICOCHET_MAP(LimitCheck, value, limit, excess, allowance, verdict);
 
 // A check, and the tallies of a limit below, stand in arrays under the number of the limit, and in a message under its
 // name.
@@ -89,15 +85,8 @@ struct Map<AuditColumns> : Between<AuditColumns, v1::AuditColumns> {
       RICOCHET_FIELD(friction), RICOCHET_FIELD(velocity_uncertainty_m_s), RatesEntry{});
 };
 
-template <>
-struct Map<ObservedRates> : Between<ObservedRates, v1::ObservedRates> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(values));
-};
-
-template <>
-struct Map<InputColumn> : Between<InputColumn, v1::InputColumn> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(path), RICOCHET_FIELD(values));
-};
+RICOCHET_MAP(ObservedRates, values);
+RICOCHET_MAP(InputColumn, path, values);
 
 template <>
 struct Map<AuditRequest> : Between<AuditRequest, v1::AuditRequest> {
@@ -106,21 +95,9 @@ struct Map<AuditRequest> : Between<AuditRequest, v1::AuditRequest> {
       RICOCHET_FIELD(velocity_uncertainty_m_s));
 };
 
-template <>
-struct Map<AuditResponse> : Between<AuditResponse, v1::AuditResponse> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(report), RICOCHET_FIELD(contact_energy_j), RICOCHET_FIELD(engine));
-};
-
-template <>
-struct Map<AuditBatchRequest> : Between<AuditBatchRequest, v1::AuditBatchRequest> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(columns), RICOCHET_FIELD(inputs));
-};
-
-template <>
-struct Map<AuditBatchResponse> : Between<AuditBatchResponse, v1::AuditBatchResponse> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(reports), RICOCHET_FIELD(summary), RICOCHET_FIELD(engine));
-};
+RICOCHET_MAP(AuditResponse, report, contact_energy_j, engine);
+RICOCHET_MAP(AuditBatchRequest, scene, columns, inputs);
+RICOCHET_MAP(AuditBatchResponse, reports, summary, engine);
 
 void ToProto(const InputColumn& column, v1::InputColumn& proto) { Map<InputColumn>::kFields.Write(column, proto); }
 void FromProto(const v1::InputColumn& proto, InputColumn& column) { Map<InputColumn>::kFields.Read(proto, column); }

@@ -41,16 +41,8 @@ struct Map<BatchSetup> : Between<BatchSetup, v1::BatchSetup> {
       Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(fields), RICOCHET_FIELD(columns), Flat(&T::demand, kDemandEntries));
 };
 
-template <>
-struct Map<BadRow> : Between<BadRow, v1::BadRow> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(row), RICOCHET_FIELD(status), RICOCHET_FIELD(field), RICOCHET_FIELD(description));
-};
-
-template <>
-struct Map<BatchSummary> : Between<BatchSummary, v1::BatchSummary> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(counts), RICOCHET_FIELD(bad_rows));
-};
+RICOCHET_MAP(BadRow, row, status, field, description);
+RICOCHET_MAP(BatchSummary, counts, bad_rows);
 
 v1::BatchSetup ToProto(const BatchSetup& setup) { return Sent(setup); }
 BatchSetup FromProto(const v1::BatchSetup& proto) { return Received<BatchSetup>(proto); }

@@ -4,10 +4,7 @@
 
 namespace ricochet {
 
-template <>
-struct Map<EngineInfo> : Between<EngineInfo, v1::Engine> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(version), RICOCHET_FIELD(fingerprint));
-};
+RICOCHET_MAP_AS(EngineInfo, v1::Engine, version, fingerprint);
 
 void ToProto(const EngineInfo& engine, v1::Engine& proto) { Map<EngineInfo>::kFields.Write(engine, proto); }
 void FromProto(const v1::Engine& proto, EngineInfo& engine) { Map<EngineInfo>::kFields.Read(proto, engine); }

@@ -54,12 +54,7 @@ static void ToProto(const ServerLimits& limits, v1::ServerLimits& proto) {
   for (const NamedServerLimit& limit : kServerLimits) SetLimit(limit.name, limits.*limit.value, proto);
 }
 
-template <>
-struct Map<InfoResponse> : Between<InfoResponse, v1::InfoResponse> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(engine), RICOCHET_FIELD(limits), RICOCHET_FIELD(server_limits), RICOCHET_FIELD(certified),
-              RICOCHET_FIELD(finite_duration), RICOCHET_FIELD(systems), RICOCHET_FIELD(models));
-};
+RICOCHET_MAP(InfoResponse, engine, limits, server_limits, certified, systems, models);
 
 v1::InfoRequest ToProto(const InfoRequest& /*request*/) { return {}; }
 InfoRequest FromProto(const v1::InfoRequest& /*proto*/) { return {}; }

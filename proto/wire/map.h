@@ -1,9 +1,13 @@
 // Map: the fields of a message beside the members of the struct that it carries. Each pair is stated once, and both
 // conversions read it:
 //
+//   RICOCHET_MAP(PowerLaw, alpha, exponent);
+//
+// A map with a part of another kind than a field and a member of one name is spelled out:
+//
 //   template <>
-//   struct Map<PowerLaw> : Between<PowerLaw, v1::PowerLaw> {
-//     static constexpr auto kFields = Entries(RICOCHET_FIELD(alpha), RICOCHET_FIELD(exponent));
+//   struct Map<FitInput> : Between<FitInput, v1::FitInput> {
+//     static constexpr auto kFields = Entries(RICOCHET_FIELD(path), RICOCHET_FIELD_AS(values, numbers));
 //   };
 //
 // The file that states the map then has ToProto(const PowerLaw&, v1::PowerLaw&) and FromProto(const v1::PowerLaw&,
@@ -212,6 +216,24 @@ constexpr auto MakeField(Member member, Access access) {
 #define RICOCHET_FIELD_AS(member, field) \
   ricochet::MakeField(                   \
       [](auto& value) -> auto& { return value.member; }, RICOCHET_ACCESS(field))
+
+// RICOCHET_FIELDS(a, b, ...) lists RICOCHET_FIELD(a), RICOCHET_FIELD(b), ... for up to 32 names: each RICOCHET_EXPAND
+// replaces what the one inside it has left, a call of RICOCHET_NEXT.
+#define RICOCHET_FIELDS(...) RICOCHET_EXPAND(RICOCHET_FIRST(__VA_ARGS__))
+#define RICOCHET_FIRST(name, ...) RICOCHET_FIELD(name) __VA_OPT__(, RICOCHET_NEXT RICOCHET_NONE(__VA_ARGS__))
+#define RICOCHET_NEXT() RICOCHET_FIRST
+#define RICOCHET_NONE ()
+#define RICOCHET_EXPAND(...) RICOCHET_EXPAND4(RICOCHET_EXPAND4(RICOCHET_EXPAND4(RICOCHET_EXPAND4(__VA_ARGS__))))
+#define RICOCHET_EXPAND4(...) RICOCHET_EXPAND2(RICOCHET_EXPAND2(RICOCHET_EXPAND2(RICOCHET_EXPAND2(__VA_ARGS__))))
+#define RICOCHET_EXPAND2(...) RICOCHET_EXPAND1(RICOCHET_EXPAND1(__VA_ARGS__))
+#define RICOCHET_EXPAND1(...) __VA_ARGS__
+
+#define RICOCHET_MAP_AS(Struct, Message, ...)                              \
+  template <>                                                              \
+  struct Map<Struct> : Between<Struct, Message> {                          \
+    static constexpr auto kFields = Entries(RICOCHET_FIELDS(__VA_ARGS__)); \
+  }
+#define RICOCHET_MAP(Struct, ...) RICOCHET_MAP_AS(Struct, v1::Struct, __VA_ARGS__)
 
 // A part that is always sent, and that keeps the value of its constructor if a message lacks it.
 template <typename Field>

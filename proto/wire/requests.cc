@@ -9,10 +9,7 @@
 
 namespace ricochet {
 
-template <>
-struct Map<DerivativePaths> : Between<DerivativePaths, v1::DerivativePaths> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(of), RICOCHET_FIELD(by), RICOCHET_FIELD(find_thresholds));
-};
+RICOCHET_MAP(DerivativePaths, of, by, find_thresholds);
 
 template <>
 struct Map<SolveRequest> : Between<SolveRequest, v1::SolveRequest> {
@@ -22,31 +19,16 @@ struct Map<SolveRequest> : Between<SolveRequest, v1::SolveRequest> {
               RICOCHET_FIELD(both_ends), RICOCHET_FIELD(derivatives), Flat(&T::demand, kDemandEntries));
 };
 
-template <>
-struct Map<SolveResponse> : Between<SolveResponse, v1::SolveResponse> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(outcome), RICOCHET_FIELD(engine));
-};
+RICOCHET_MAP(SolveResponse, outcome, engine);
 
 template <>
 struct Map<PlanRequest> : Between<PlanRequest, v1::PlanRequest> {
   static constexpr auto kFields = Entries(RICOCHET_FIELD(scene), Flat(&T::demand, kDemandEntries));
 };
 
-template <>
-struct Map<PlanResponse> : Between<PlanResponse, v1::PlanResponse> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(plan), RICOCHET_FIELD(engine));
-};
-
-template <>
-struct Map<Range> : Between<Range, v1::Range> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(lower), RICOCHET_FIELD(upper));
-};
-
-template <>
-struct Map<CoefficientBounds> : Between<CoefficientBounds, v1::CoefficientBounds> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(newton), RICOCHET_FIELD(poisson), RICOCHET_FIELD(energetic),
-                                          RICOCHET_FIELD(tangential), RICOCHET_FIELD(normal_total_n_s));
-};
+RICOCHET_MAP(PlanResponse, plan, engine);
+RICOCHET_MAP(Range, lower, upper);
+RICOCHET_MAP(CoefficientBounds, newton, poisson, energetic, tangential, normal_total_n_s);
 
 // The errors of the coefficients are sent with the coefficients only.
 struct CoefficientErrorsEntry {
@@ -66,41 +48,12 @@ struct Map<NearlyVertical> : Between<NearlyVertical, v1::NearlyVertical> {
               CoefficientErrorsEntry{});
 };
 
-template <>
-struct Map<CriticalFriction> : Between<CriticalFriction, v1::CriticalFriction> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(stick), RICOCHET_FIELD(stop_compression), RICOCHET_FIELD(stop),
-                                          RICOCHET_FIELD(reversal), RICOCHET_FIELD(jam));
-};
-
-template <>
-struct Map<Bounds> : Between<Bounds, v1::Bounds> {
-  static constexpr auto kFields = Entries(
-      RICOCHET_FIELD(regime), RICOCHET_FIELD(friction_ratio), RICOCHET_FIELD(slope_ratio), RICOCHET_FIELD(sharp),
-      RICOCHET_FIELD(energy_only), RICOCHET_FIELD(nearly_vertical), RICOCHET_FIELD(critical), RICOCHET_FIELD(sampled));
-};
-
-template <>
-struct Map<Enclosure> : Between<Enclosure, v1::Enclosure> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(outer), RICOCHET_FIELD(attained), RICOCHET_FIELD(excess), RICOCHET_FIELD(boxes));
-};
-
-template <>
-struct Map<FieldRange> : Between<FieldRange, v1::FieldRange> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(path), RICOCHET_FIELD(low), RICOCHET_FIELD(high));
-};
-
-template <>
-struct Map<BoundsRequest> : Between<BoundsRequest, v1::BoundsRequest> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(scene), RICOCHET_FIELD(ranges),
-                                          RICOCHET_FIELD(certified_digits), RICOCHET_FIELD(derivatives));
-};
-
-template <>
-struct Map<BoundsResponse> : Between<BoundsResponse, v1::BoundsResponse> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(bounds), RICOCHET_FIELD(engine), RICOCHET_FIELD(enclosure),
-                                          RICOCHET_FIELD(certificate), RICOCHET_FIELD(derivatives));
-};
+RICOCHET_MAP(CriticalFriction, stick, stop_compression, stop, reversal, jam);
+RICOCHET_MAP(Bounds, regime, friction_ratio, slope_ratio, sharp, energy_only, nearly_vertical, critical, sampled);
+RICOCHET_MAP(Enclosure, outer, attained, excess, boxes);
+RICOCHET_MAP(FieldRange, path, low, high);
+RICOCHET_MAP(BoundsRequest, scene, ranges, certified_digits, derivatives);
+RICOCHET_MAP(BoundsResponse, bounds, engine, enclosure, certificate, derivatives);
 
 v1::SolveRequest ToProto(const SolveRequest& request) { return Sent(request); }
 SolveRequest FromProto(const v1::SolveRequest& proto) { return Received<SolveRequest>(proto); }

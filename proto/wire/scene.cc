@@ -4,114 +4,36 @@
 
 namespace ricochet {
 
-template <>
-struct Map<Pendulum> : Between<Pendulum, v1::Pendulum> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(inertia_kg_m2), RICOCHET_FIELD(a_m), RICOCHET_FIELD(b_m),
-                                          RICOCHET_FIELD(omega_minus_rad_s));
-};
-
-template <>
-struct Map<PlanarBody> : Between<PlanarBody, v1::PlanarBody> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(mass_kg), RICOCHET_FIELD(inertia_com_kg_m2), RICOCHET_FIELD(offset_t_m),
-              RICOCHET_FIELD(offset_n_m), RICOCHET_FIELD(velocity_t_m_s), RICOCHET_FIELD(velocity_n_m_s),
-              RICOCHET_FIELD(rate_rad_s));
-};
-
-template <>
-struct Map<SpatialBody> : Between<SpatialBody, v1::SpatialBody> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(mass_kg), RICOCHET_FIELD(inertia_com_kg_m2), RICOCHET_FIELD(offset_m),
-              RICOCHET_FIELD(linear_m_s), RICOCHET_FIELD(angular_rad_s));
-};
-
-template <>
-struct Map<PlanarPair> : Between<PlanarPair, v1::PlanarPair> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(body_1), RICOCHET_FIELD(body_2));
-};
-
-template <>
-struct Map<SpatialPair> : Between<SpatialPair, v1::SpatialPair> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(body_1), RICOCHET_FIELD(body_2));
-};
+RICOCHET_MAP(Pendulum, inertia_kg_m2, a_m, b_m, omega_minus_rad_s);
+RICOCHET_MAP(PlanarBody, mass_kg, inertia_com_kg_m2, offset_t_m, offset_n_m, velocity_t_m_s, velocity_n_m_s,
+             rate_rad_s);
+RICOCHET_MAP(SpatialBody, mass_kg, inertia_com_kg_m2, offset_m, linear_m_s, angular_rad_s);
+RICOCHET_MAP(PlanarPair, body_1, body_2);
+RICOCHET_MAP(SpatialPair, body_1, body_2);
 
 template <>
 struct Map<BodyPair> : Between<BodyPair, v1::BodyPair> {
   static constexpr auto kFields = Entries(Flat(&T::bodies, OneOf(RICOCHET_ACCESS(planar), RICOCHET_ACCESS(spatial))));
 };
 
-template <>
-struct Map<Link> : Between<Link, v1::Link> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(length_m), RICOCHET_FIELD(mass_kg), RICOCHET_FIELD(com_m),
-              RICOCHET_FIELD(inertia_com_kg_m2), RICOCHET_FIELD(theta_rad), RICOCHET_FIELD(rate_rad_s));
-};
-
-template <>
-struct Map<Linkage> : Between<Linkage, v1::Linkage> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(links));
-};
-
-template <>
-struct Map<PlanarContact> : Between<PlanarContact, v1::PlanarContact> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(w_tt_per_kg), RICOCHET_FIELD(w_tn_per_kg), RICOCHET_FIELD(w_nn_per_kg),
-              RICOCHET_FIELD(tangential_m_s), RICOCHET_FIELD(normal_m_s));
-};
-
-template <>
-struct Map<SpatialContact> : Between<SpatialContact, v1::SpatialContact> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(w_per_kg), RICOCHET_FIELD(tangential_m_s), RICOCHET_FIELD(normal_m_s));
-};
-
-template <>
-struct Map<Mechanism> : Between<Mechanism, v1::Mechanism> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(mass_matrix), RICOCHET_FIELD(jacobian), RICOCHET_FIELD(rates),
-                                          RICOCHET_FIELD(kept_coordinates), RICOCHET_FIELD(composite));
-};
-
-template <>
-struct Map<PowerLaw> : Between<PowerLaw, v1::PowerLaw> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(alpha), RICOCHET_FIELD(exponent));
-};
-
-template <>
-struct Map<SpeedTable> : Between<SpeedTable, v1::SpeedTable> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(speed_m_s), RICOCHET_FIELD(factor));
-};
+RICOCHET_MAP(Link, length_m, mass_kg, com_m, inertia_com_kg_m2, theta_rad, rate_rad_s);
+RICOCHET_MAP(Linkage, links);
+RICOCHET_MAP(PlanarContact, w_tt_per_kg, w_tn_per_kg, w_nn_per_kg, tangential_m_s, normal_m_s);
+RICOCHET_MAP(SpatialContact, w_per_kg, tangential_m_s, normal_m_s);
+RICOCHET_MAP(Mechanism, mass_matrix, jacobian, rates, kept_coordinates, composite);
+RICOCHET_MAP(PowerLaw, alpha, exponent);
+RICOCHET_MAP(SpeedTable, speed_m_s, factor);
 
 template <>
 struct Map<SpeedDependence> : Between<SpeedDependence, v1::SpeedDependence> {
   static constexpr auto kFields = OneOf(RICOCHET_ACCESS(power_law), RICOCHET_ACCESS(table));
 };
 
-template <>
-struct Map<Friction> : Between<Friction, v1::Friction> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(kinetic_coefficient), RICOCHET_FIELD(static_coefficient), RICOCHET_FIELD(by_speed));
-};
-
-template <>
-struct Map<SurfaceVelocity> : Between<SurfaceVelocity, v1::SurfaceVelocity> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(tangential_m_s), RICOCHET_FIELD(normal_m_s));
-};
-
-template <>
-struct Map<LinearSpring> : Between<LinearSpring, v1::LinearSpring> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(stiffness_n_m));
-};
-
-template <>
-struct Map<HertzSpring> : Between<HertzSpring, v1::HertzSpring> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(stiffness_n_m1_5));
-};
-
-template <>
-struct Map<HuntCrossleySpring> : Between<HuntCrossleySpring, v1::HuntCrossleySpring> {
-  static constexpr auto kFields =
-      Entries(RICOCHET_FIELD(stiffness_n_m_p), RICOCHET_FIELD(exponent), RICOCHET_FIELD(damping_s_m));
-};
+RICOCHET_MAP(Friction, kinetic_coefficient, static_coefficient, by_speed);
+RICOCHET_MAP(SurfaceVelocity, tangential_m_s, normal_m_s);
+RICOCHET_MAP(LinearSpring, stiffness_n_m);
+RICOCHET_MAP(HertzSpring, stiffness_n_m1_5);
+RICOCHET_MAP(HuntCrossleySpring, stiffness_n_m_p, exponent, damping_s_m);
 
 template <>
 struct Map<Compliance> : Between<Compliance, v1::Compliance> {
@@ -120,40 +42,13 @@ struct Map<Compliance> : Between<Compliance, v1::Compliance> {
               Flat(&T::normal, OneOf(RICOCHET_ACCESS(linear), RICOCHET_ACCESS(hertz), RICOCHET_ACCESS(hunt_crossley))));
 };
 
-template <>
-struct Map<WhittakerLaw> : Between<WhittakerLaw, v1::Whittaker> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(e));
-};
-
-template <>
-struct Map<KaneLevinsonLaw> : Between<KaneLevinsonLaw, v1::KaneLevinson> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(e));
-};
-
-template <>
-struct Map<BrachLaw> : Between<BrachLaw, v1::Brach> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(e), RICOCHET_FIELD(mu_hat));
-};
-
-template <>
-struct Map<ChatterjeeRuinaLaw> : Between<ChatterjeeRuinaLaw, v1::ChatterjeeRuina> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(e), RICOCHET_FIELD(e_t));
-};
-
-template <>
-struct Map<Gravity> : Between<Gravity, v1::Gravity> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(tangential_m_s2), RICOCHET_FIELD(normal_m_s2));
-};
-
-template <>
-struct Map<PinMoment> : Between<PinMoment, v1::PinMoment> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(moment_n_m));
-};
-
-template <>
-struct Map<ContactAcceleration> : Between<ContactAcceleration, v1::ContactAcceleration> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(tangential_m_s2), RICOCHET_FIELD(normal_m_s2));
-};
+RICOCHET_MAP_AS(WhittakerLaw, v1::Whittaker, e);
+RICOCHET_MAP_AS(KaneLevinsonLaw, v1::KaneLevinson, e);
+RICOCHET_MAP_AS(BrachLaw, v1::Brach, e, mu_hat);
+RICOCHET_MAP_AS(ChatterjeeRuinaLaw, v1::ChatterjeeRuina, e, e_t);
+RICOCHET_MAP(Gravity, tangential_m_s2, normal_m_s2);
+RICOCHET_MAP(PinMoment, moment_n_m);
+RICOCHET_MAP(ContactAcceleration, tangential_m_s2, normal_m_s2);
 
 // A scene has its restitution and the dependence on speed as two members. The message of both is sent if one is set.
 struct RestitutionEntry {

@@ -18,20 +18,9 @@ static_assert(kRowStatusCount == v1::RowStatus_ARRAYSIZE);
 static_assert(kEffectCount == v1::Effect_ARRAYSIZE);
 static_assert(v1::Regime_MAX <= 255, "a chunk has one byte for each regime");
 
-template <>
-struct Map<ListValues> : Between<ListValues, v1::ListValues> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(values));
-};
-
-template <>
-struct Map<Linspace> : Between<Linspace, v1::Linspace> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(start), RICOCHET_FIELD(stop), RICOCHET_FIELD(count));
-};
-
-template <>
-struct Map<Logspace> : Between<Logspace, v1::Logspace> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(start), RICOCHET_FIELD(stop), RICOCHET_FIELD(count));
-};
+RICOCHET_MAP(ListValues, values);
+RICOCHET_MAP(Linspace, start, stop, count);
+RICOCHET_MAP(Logspace, start, stop, count);
 
 template <>
 struct Map<Axis> : Between<Axis, v1::Axis> {
@@ -48,10 +37,7 @@ struct Map<SweepRequest> : Between<SweepRequest, v1::SweepRequest> {
               RICOCHET_FIELD(end_index), Flat(&T::demand, kDemandEntries));
 };
 
-template <>
-struct Map<Tally> : Between<Tally, v1::Tally> {
-  static constexpr auto kFields = Entries(RICOCHET_FIELD(count), RICOCHET_FIELD(first_index));
-};
+RICOCHET_MAP(Tally, count, first_index);
 
 void ToProto(const Tally& tally, v1::Tally& proto) { Map<Tally>::kFields.Write(tally, proto); }
 void FromProto(const v1::Tally& proto, Tally& tally) { Map<Tally>::kFields.Read(proto, tally); }

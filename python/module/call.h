@@ -30,7 +30,7 @@
 
 namespace ricochet::python {
 
-// A client of Python has a solver that it asks, and how its calls end.
+// Callee holds the solver that a client of Python asks, and says how its calls end.
 struct Callee {
   std::shared_ptr<const Solver> solver;
   bool is_remote = false;
@@ -94,7 +94,7 @@ class Call {
         const WithoutLock without_lock;
         is_ready = answer.wait_for(kBetweenLooks) == std::future_status::ready;
       }
-      // The parts of a stream may each be ready at once.
+      // Parts of a stream may all be ready at once, so that signals are handled here, too.
       if (!raised_.has_value() && IsTimeToLook() && HandleSignals()) stop_.request_stop();
       if (is_ready) return answer.get();
     }

@@ -193,7 +193,7 @@ py::object ReadEntry(py::handle record, py::handle name) {
   if (PyObject* const known = PyDict_GetItemWithError(record.ptr(), name.ptr()); known != nullptr) {
     return py::reinterpret_borrow<py::object>(known);
   }
-  // Another thread may have read all of it while this one asked.
+  // Another thread may have read the whole record while this one asked for the entry.
   if (IsRead(record)) return {};
   for (const Entry& entry : EntriesOf(*v1::Outcome::descriptor())) {
     if (PyObject_RichCompareBool(entry.name, name.ptr(), Py_EQ) != 1) continue;

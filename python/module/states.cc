@@ -106,7 +106,7 @@ struct Axes {
   bool is_planar;  // The contact cannot move along t2.
 };
 
-// n is along `normal`, t1 along the slip, or anywhere if nothing slips.
+// Returns n along `normal` and t1 along the slip, or along any tangent if nothing slips.
 Axes AxesOf(const Velocities& velocities, const Vector& velocity, const Vector& normal) {
   const std::optional<Vector> only = OnlySlip(velocities, normal);
   const double sign = only.has_value() && Dot(*only, velocity) < 0.0 ? -1.0 : 1.0;

@@ -13,7 +13,7 @@
 
 namespace ricochet::server {
 
-// Why a call is expensive.
+// CostCause says why a call is expensive.
 enum class CostCause {
   kNothing,      // The call is cheap.
   kCertificate,  // Certified digits.

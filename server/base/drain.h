@@ -20,7 +20,7 @@
 
 namespace ricochet::server {
 
-// When handlers must end. Default tokens never ask for it.
+// DrainStops says when handlers must end. Default tokens never ask for it.
 struct DrainStops {
   std::stop_token streams;  // Requested after the grace; from then on new calls are refused as well.
   std::stop_token unary;    // Requested after the timeout.

@@ -83,7 +83,7 @@ std::string ToText(const LogField& field, LogFormat format) {
 // The log that receives gRPC's own messages.
 std::atomic<const Log*> grpc_log = nullptr;
 
-// A failed handshake is no error of the server; server/security/handshakes.h says whose it was.
+// A failed handshake is not an error of the server; server/security/handshakes.h logs whose it was.
 constexpr char kHandshakeFailed[] = "Handshake failed with fatal error";
 
 LogLevel LevelOf(const gpr_log_func_args& message) {

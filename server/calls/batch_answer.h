@@ -22,7 +22,7 @@ class BatchAnswer {
   // Every batch ends when the options say so. `solver` must outlive this object.
   BatchAnswer(const Solver& solver, CallOptions options) : solver_(solver), options_(std::move(options)) {}
 
-  // How expensive the answer to the request is.
+  // Returns how expensive the answer to the request is.
   RequestCost CostOf(const v1::SolveBatchRequest& request);
 
   // Fills the response, and adds the models that have solved rows to the record.

@@ -29,7 +29,7 @@ constexpr std::chrono::seconds kStall(1);
 
 bool HasExpired(const grpc::ServerContext& context) { return context.deadline() <= std::chrono::system_clock::now(); }
 
-// The end of a call, which comes when gRPC has sent the answer: then gRPC knows without polling whether the caller gave
+// Ending is the end of a call, once gRPC has sent the answer: gRPC then knows without polling whether the caller gave
 // up, and nobody waits for the record.
 class Ending {
  public:

@@ -97,7 +97,7 @@ class Call {
   const std::stop_token& drain() const;
   // True once the caller has cancelled the call or went away, but a millisecond late at most. One thread at a time.
   bool IsCancelled() const;
-  // Looks from time to time whether the caller is still known and may make the call. UNAUTHENTICATED if not.
+  // Looks from time to time whether the caller is still known and may make the call. Returns UNAUTHENTICATED if not.
   absl::Status CheckCaller();
   absl::Status Explained(const absl::Status& status) const;
 

@@ -57,7 +57,7 @@ class Auth {
   std::string CallerOf(const grpc::ServerContext& context);
 
  private:
-  // Who calls, or the reason why nobody known does.
+  // Finding says who calls, or why the caller is not known.
   struct Finding {
     std::optional<Callers::Caller> caller;
     std::string reason;

@@ -15,7 +15,7 @@
 
 namespace ricochet::server {
 
-// While it lives, the handshakes that this thread begins are those of one peer.
+// It attributes the handshakes that this thread begins to one peer, as long as it lives.
 class HandshakesOf {
  public:
   // `peer` is the address of the client as records of calls have it, such as "ipv4:192.0.2.1:40000". Failures go to the

@@ -27,7 +27,7 @@ using grpc::experimental::ServerRpcInfo;
 // The name that gRPC gives to every method that no service has.
 constexpr char kUnknownMethod[] = "unknown";
 
-// Why a call ended before a handler ran, and the status to end it with.
+// Refusal says why a call ended before a handler ran, and holds the status to end it with.
 struct Refusal {
   std::string reason;
   absl::Status status;

@@ -63,7 +63,7 @@ int PortOf(int socket) {
                                        : ntohs(reinterpret_cast<const sockaddr_in&>(address).sin_port);
 }
 
-// The numbers of an address: a name may mean another one later.
+// Returns the numeric address, because a name may mean another one later.
 std::string HostOf(const addrinfo& address) {
   std::array<char, NI_MAXHOST> host = {};
   const int error =

@@ -108,7 +108,7 @@ double SecondsOf(const Problem& problem) {
   return least / kTimes;
 }
 
-// Whether a looser tolerance ever takes longer than a tighter one, in the mean or in single scenes.
+// Reports whether a looser tolerance ever takes longer than a tighter one, in the mean or in single scenes.
 void CompareTolerances(const std::vector<Problem>& problems) {
   std::vector<double> tighter;
   for (const double tolerance : {1e-12, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {

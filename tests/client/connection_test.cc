@@ -1,4 +1,4 @@
-// How the client and the command line name a server and prove who they are.
+// Tests how the client and the command line name a server and prove who they are.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -212,7 +212,7 @@ TEST_F(ExitCodes, TryAgainIsSaidOnlyOfWhatARetryCanMend) {
       // A server of gRPC does not say why it closes a connection.
       {mutual.address(), trusting, 75, "or another certificate of this client (security.tls_cert, --tls-cert)"},
       {mutual.address(), showing("stranger.pem", "stranger.key"), 75, "or another certificate of this client"},
-      // And what is right is right.
+      // Right options are accepted.
       {tls.address(), trusting, 0, ""},
       {mutual.address(), showing("client.pem", "client.key"), 0, ""},
       {plain.address(), {}, 0, ""},

@@ -1,4 +1,4 @@
-// Which server gets which points of a shared sweep, in which order their chunks leave, and how much waits meanwhile.
+// Tests which server gets which points of a shared sweep, in which order chunks leave, and how much waits meanwhile.
 
 #include "client/range_scheduler.h"
 

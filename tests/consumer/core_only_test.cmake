@@ -1,20 +1,20 @@
-# Builds and installs the core alone, without the service and both optional components, then builds and runs the project
+# Builds and installs the core alone, without the service and the optional component, then builds and runs the project
 # beside this file against it. None of the libraries left out may be found or included in any of the steps.
 # Called as cmake -DSOURCE_DIR=... -DWORK_DIR=... -DCORE_DIR=... -DCXX_FLAGS=... -DLAUNCHER=... -P core_only_test.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK_DIR} ${CORE_DIR})
-foreach(header arb.h flint/flint.h gmp.h cvode/cvode.h grpcpp/grpcpp.h google/protobuf/message.h)
+foreach(header arb.h flint/flint.h gmp.h grpcpp/grpcpp.h google/protobuf/message.h)
   file(WRITE ${WORK_DIR}/poison/${header} "#error \"the core alone does not have this library\"\n")
 endforeach()
 string(APPEND CXX_FLAGS " -I${WORK_DIR}/poison")
-foreach(package CLI11 FLINT GTest Protobuf SUNDIALS gRPC spdlog)
+foreach(package CLI11 FLINT GTest Protobuf gRPC spdlog)
   list(APPEND nothing_else -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${CORE_DIR} -G Ninja ${nothing_else}
     -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
-    -DRICOCHET_SERVICE=OFF -DRICOCHET_CERTIFIED=OFF -DRICOCHET_FINITE_DURATION=OFF
+    -DRICOCHET_SERVICE=OFF -DRICOCHET_CERTIFIED=OFF
     -DRICOCHET_TESTS=OFF -DRICOCHET_BENCHMARKS=OFF)
 run(${CMAKE_COMMAND} --build ${CORE_DIR})
 run(${CMAKE_COMMAND} --install ${CORE_DIR} --prefix ${WORK_DIR}/prefix)

@@ -27,7 +27,7 @@
 
 namespace ricochet {
 
-// Both functions Fail (tests/fuzz/fail.h) with the claim that is broken.
+// Both functions call Fail (tests/fuzz/fail.h) with the claim that is broken.
 void CheckStatus(const absl::Status& status, bool valid_scene, bool inadmissible_is_error = false);
 void CheckOutcome(const Scene& scene, const Outcome& outcome);
 

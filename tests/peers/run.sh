@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../tools/dev_lib.sh"
 
 readonly peers_packages=(
-  "${core_packages[@]}" gnuplot-nox libflint-arb-dev libflint-dev libgmock-dev libgmp-dev libgtest-dev libsundials-dev
+  "${core_packages[@]}" gnuplot-nox libflint-arb-dev libflint-dev libgmock-dev libgmp-dev libgtest-dev
   nlohmann-json3-dev python3 python3-numpy)
 # Physics engines; those that cannot be installed are left out.
 readonly engine_packages=(

@@ -74,7 +74,7 @@ class Comparison {
     }
   }
 
-  // All of a field that old code relies on; numbers, names in JSON and the oneof included.
+  // Returns all properties of a field that old code relies on, including numbers, names in JSON and the oneof.
   static std::string Signature(const FieldDescriptor& field) {
     const std::string type = field.message_type() != nullptr ? field.message_type()->full_name()
                              : field.enum_type() != nullptr  ? field.enum_type()->full_name()

@@ -151,7 +151,7 @@ Limits LimitsOf(const spatial::Problem& problem, const spatial::Impact& impact) 
           .ledger = kRounding * work + cancelled * impulse};
 }
 
-// By how much |f1| exceeds what friction can give.
+// Returns by how much |f1| exceeds the most that friction can give.
 double OutsideCone(const planar::Problem& problem, const planar::Impact& impact) {
   constexpr double kSmallest = 0x1p-1074;
   const double most = problem.mu_static * (impact.tau1 * (1.0 + 0x1p-50) + kSmallest) + kSmallest;

@@ -185,7 +185,7 @@ CaseGrade GradeCase(const SimulatorAnswer& answer, const std::string& law, doubl
   grade.energy = EnergyCheck(one, after, tolerance);
   grade.approach = ApproachCheck(one, after, tolerance);
   grade.cone = ConeCheck(one, after, tolerance);
-  // An order of impacts has no symmetry, though its answer is right.
+  // The answer for one order of impacts may be right without being symmetric.
   if (!grade.right || one.HasOneContact()) grade.symmetry = SymmetryCheck(one, after, tolerance);
   return grade;
 }
@@ -219,7 +219,7 @@ int Grade::RightCases() const {
 
 Grade GradeOf(const SimulatorAnswers& answers, const GradeDemand& demand) {
   Grade grade{.demand = demand, .simulator = answers.simulator, .law = demand.law};
-  // A law counts at one contact.
+  // Only answers at one contact have a law that counts.
   bool all_state = true;
   for (const SimulatorAnswer& answer : answers.answers) {
     if (!answer.asked->HasOneContact()) continue;

@@ -49,8 +49,8 @@ struct Grade {
   bool AllRight() const { return RightCases() == static_cast<int>(cases.size()); }
 };
 
-// The law of the demand; else each answer's own; those without one are judged by the one that answers of one contact
-// come nearest to most often.
+// Judges all answers by the law of the demand; else each by its own law, and those without one by the law that the
+// answers at one contact match most often.
 Grade GradeOf(const SimulatorAnswers& answers, const GradeDemand& demand);
 
 }  // namespace ricochet::cli

@@ -97,7 +97,7 @@ struct Asking {
       for (size_t i = 0; i < mu.size(); ++i) known.emplace(mu[i], regimes[i]);
       mu.clear();
       for (auto low = known.begin(), high = std::next(low); high != known.end(); low = high++) {
-        // A smooth surface is a regime at one point.
+        // The regime of a smooth surface holds at mu = 0 alone, so that this gap is not refined.
         if (low->first == 0.0 || low->second == high->second) continue;
         for (int part = 1; part < kParts; ++part) {
           mu.push_back(low->first + (high->first - low->first) * part / kParts);
@@ -119,7 +119,7 @@ struct Asking {
                              absl::Base64Escape(bytes), R"("]})"));
   }
 
-  // These depend on the coefficient that the scene states, and are none without one.
+  // These answers depend on the stated coefficient; without one there are none.
   std::string operator()(std::monostate /*none*/) const { return ""; }
   template <typename Coefficient>
   std::string operator()(const Coefficient& stated) const {

@@ -119,8 +119,8 @@ WebServer::~WebServer() {
   mg_exit_library();
 }
 
-// Only a name can be bound to another address than its owner's, so that every address is good beyond loopback, where
-// this server may have several.
+// Only a host name can be rebound to another address, so that any IP address is accepted beyond loopback, where this
+// server may have several.
 bool WebServer::IsOwn(absl::string_view authority) const {
   if (authority.empty()) return false;
   // Clients leave out the port 80, which http:// stands for.

@@ -62,14 +62,14 @@ std::optional<AuditTable::Place> AuditTable::PlaceOf(const std::string& cell) co
   return Place{.field = cell};
 }
 
-// A short name must not mean both an observed number and a field of the scene. A name that means none is returned.
+// A short name must not mean both an observed number and a field of the scene. If it means neither, it is returned.
 absl::StatusOr<std::string> AuditTable::FullColumn(const std::string& cell, const std::string& name) const {
   if (PlaceOf(cell).has_value()) return cell;
   const std::string what = absl::StrCat(name, " has the column");
   const absl::StatusOr<std::string> observed = FullName(cell, KnownNames(), what);
   std::vector<std::string> fields;
   for (const std::string& field : fields_) {
-    // The contact's velocity that an audit compares is not that of the surface.
+    // The velocity of the surface must not be taken for the contact velocity that an audit compares.
     if (!PlaceOf(field.substr(field.rfind('.') + 1)).has_value()) fields.push_back(field);
   }
   absl::StatusOr<std::string> field = FullName(cell, fields, what);

@@ -168,7 +168,7 @@ absl::Status RequireVelocity(const Scene& scene) {
   });
   if (is_moving || velocities.empty()) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat("no velocity of the scene is other than 0, so that nothing strikes: must set ",
+      absl::StrCat("nothing strikes, because all velocities of the scene are 0: must have another value in ",
                    velocities.size() == 1 ? "" : "one of ", absl::StrJoin(velocities, ", ")));
 }
 

@@ -48,7 +48,7 @@ struct Ends {
   bool any() const { return least <= most; }
 };
 
-// Cells fill the frame.
+// The axes of a map end at its outermost cells, so that cells fill the frame.
 Axes AxesOfMap(const Panel& panel, const std::vector<MapCell>& cells) {
   Ends x;
   Ends y;

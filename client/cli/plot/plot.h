@@ -17,10 +17,10 @@ namespace ricochet::cli {
 struct Curve {
   std::string title;                              // Empty: the legend leaves the curve out.
   std::vector<std::pair<double, double>> points;  // NaN leaves a gap.
-  // How gnuplot draws the points, such as "with points pointtype 6". Empty: a line in the colour and dashes of `look`,
-  // and a mark at each point that has no neighbour.
+  // This says how gnuplot draws the points, such as "with points pointtype 6". If it is empty, they get a line in the
+  // colour and dashes of `look`, and a mark at each point that has no neighbour.
   std::string style;
-  // For marks at points that other curves or cells show: how the legend, whose last names are theirs, draws them.
+  // For marks at points that other curves or cells show, this says how the legend draws them; their names come last.
   std::string key_style;
   int look = -1;  // Curves of equal look are drawn alike. -1: the place of the curve in its panel.
 };

@@ -88,7 +88,7 @@ Legend LegendOf(const Panel& panel, const Layout& layout) {
   const double width = (static_cast<double>(longest) + 7.0) * layout.character();
   const double height = 1.3 * layout.font * count;
   const bool fits = width <= 0.34 * layout.cell_width() && height <= layout.cell_height() - 6.0 * layout.font;
-  // Beside a map is the scale of its colours.
+  // A map has the scale of its colours beside it, where a legend would need the room.
   if (layout.columns == 1 && fits && !is_map) return {Legend::Place::kBeside, width, 0};
   // gnuplot puts as many names into a line as the frame is wide.
   const double room = layout.frame_width(is_map ? 10.0 * layout.character() : -2.0 * layout.character());

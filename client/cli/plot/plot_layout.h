@@ -22,12 +22,12 @@ struct Layout {
   double cell_width() const { return static_cast<double>(width) / columns; }
   double cell_height() const { return static_cast<double>(height) / rows; }
   double character() const { return kLetterWidth * font; }  // The mean width of a letter.
-  // The length of a line of the title; its letters are a tenth larger.
+  // Returns the characters in a line of the title, whose letters are a tenth larger.
   double title_characters() const { return width / character() / 1.1 - 2.0; }
-  // The length of a line across a panel, and upwards beside one.
+  // Return the characters in a line across a panel, and in one upwards beside it.
   double across() const { return cell_width() / character() - 4.0; }
   double upwards() const { return cell_height() / character() - 8.0; }
-  // The room left of a cell between the labels of the axes, the titles and what stands `beside` the frame.
+  // Returns the width that the labels of the axes, the titles and what stands `beside` the frame leave of a cell.
   double frame_width(double beside) const { return cell_width() - 9.0 * character() - 2.0 * font - beside; }
   double frame_height() const;
 };

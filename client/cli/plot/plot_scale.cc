@@ -36,7 +36,7 @@ double RoundedOut(double value, int exponent, bool up) {
   return exponent < 0 ? whole / power : whole * power;
 }
 
-// The second digit of a length.
+// Returns the exponent of the second digit of a length.
 int SecondDigit(double length) { return static_cast<int>(std::floor(std::log10(length))) - 1; }
 
 // Widens `middle` to the middle part of a group, whose finite values are in ascending order.

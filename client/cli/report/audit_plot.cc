@@ -55,7 +55,7 @@ std::vector<Curve> CurvesOf(const std::vector<AuditReport>& reports, Place place
   return curves;
 }
 
-// The cone of the largest friction of a row, which the legend says where others are narrower.
+// Adds the friction cone of the row with the most friction; the legend says if other rows have narrower ones.
 void AddCone(const std::vector<AuditReport>& reports, Panel& panel) {
   double friction = 0.0, least_friction = std::numeric_limits<double>::infinity();
   double reach = 0.0;

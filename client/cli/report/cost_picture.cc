@@ -18,7 +18,7 @@ namespace {
 
 // Errors below half an ulp of a double are drawn here, on the left edge.
 constexpr int kLeastExponent = -17;
-// Methods without an answer, and claims of no bound, stand in a column of their own beyond the errors.
+// Methods without an answer, and claims without a bound, are drawn in a column of their own beyond the errors.
 constexpr double kBeyond = 1e3;
 constexpr char kErrsMore[] = "errs more than it claims";
 constexpr char kMisses[] = "misses its tolerance";
@@ -92,7 +92,7 @@ Look LookOf(const Family& family) {
   return kOtherLook;
 }
 
-// The stiffnesses of a spring share a colour; `ordinal` counts them.
+// Curves for the stiffnesses of a spring share a colour and differ by dashes and marks; `ordinal` counts them.
 std::string StyleOf(const Family& family, int ordinal) {
   const Look look = LookOf(family);
   const bool full = family.arithmetic == Arithmetic::kCompensated;
@@ -128,7 +128,7 @@ std::vector<Curve> CurvesOf(const CostChunk& study, Place place) {
   return curves;
 }
 
-// A ring around the points of the rows for which `holds`.
+// Adds a ring around the points of the rows for which `holds`.
 void AddRing(const CostChunk& study, Place place, const char* title, const char* style, bool (*holds)(const CostRow&),
              std::vector<Curve>& curves) {
   Curve ring{.title = title, .points = {}, .style = style};
@@ -150,7 +150,7 @@ void AddRings(const CostChunk& study, Place place, std::vector<Curve>& curves) {
       curves);
 }
 
-// Methods that failed stand beyond all errors, at the time that they took or else at the top.
+// Draws methods that failed beyond all errors, at the time that they took, or at the top if that is not known.
 Curve FailedCurve(const CostChunk& study, double top) {
   Curve failed{.title = kNoAnswer,
                .points = {},
@@ -198,7 +198,7 @@ std::string TimeTicks(int least, int most) {
   return absl::StrCat("set ytics (", absl::StrJoin(ticks, ", "), ")\nset yrange [1e", least, ":1e", most, "]\n");
 }
 
-// The powers of ten between which all times lie.
+// Returns the powers of ten between which all times lie.
 std::pair<int, int> TimeRange(const CostChunk& study) {
   double least = 1e300;
   double most = 0.0;
@@ -251,7 +251,7 @@ Panel ClaimPanel(const CostChunk& study, PictureWidth width) {
   return panel;
 }
 
-// One picture of its own for a page: the legend stands beside it, or below where there is no room.
+// Returns one panel as a picture for a page: the legend stands beside it, or below where there is no room.
 Plot Alone(Panel panel, PictureWidth width) {
   panel.title = "";
   const bool wide = width == PictureWidth::kWide;
@@ -272,7 +272,7 @@ Plot Alone(Panel panel, PictureWidth width) {
   return {.title = "", .panels = {std::move(panel)}, .width = wide ? 1040 : kNarrow, .height = height};
 }
 
-// Where two panels beside each other and their legend stand, as fractions of the picture.
+// SideBySide places two panels and their legend, in fractions of the picture.
 struct SideBySide {
   double left_1, right_1, left_2, right_2, top, bottom;
   std::string key;
@@ -289,7 +289,7 @@ const SideBySide kLegendBeside = {
 constexpr int kLeastWidthWithLegendBeside = 1300;
 constexpr int kLeastWidthWithDetail = 900;
 
-// The legend of `panel` takes as many columns as the picture has room for.
+// Places the legend below, with as many columns as the picture has room for.
 SideBySide LegendBelow(const Panel& panel, int width, int height) {
   const double letter = LetterHeight(width / 2.0, height);
   const double letter_width = kLetterWidth * letter;

@@ -58,7 +58,7 @@ std::string PicksText(const CostChunk& study) {
   return text + "\n";
 }
 
-// A long list is told by its ends, because the same note goes with many rows in a row.
+// A long list is shortened to its ends, because a note often applies to many neighbouring rows.
 std::string MethodNames(const std::vector<std::string>& names) {
   constexpr size_t kMost = 3;
   if (names.size() <= kMost) return absl::StrJoin(names, "; ");
@@ -103,7 +103,7 @@ CsvRow CsvRowOf(const CostChunk& study, size_t index, bool on_front) {
   csv.Integer("index", index);
   csv.Quoted("name", row.name);
   csv.Words("status", EnumName(row.status));
-  // The methods for several contacts are none of the models for one.
+  // The methods for several contacts use none of the models for one contact.
   const bool has_model = row.method.model != Model::kUnspecified;
   csv.Words("method.model", has_model ? EnumName(row.method.model) : "");
   csv.Words("method.arithmetic", has_model ? absl::AsciiStrToUpper(ArithmeticText(row.method.arithmetic)) : "");
@@ -135,7 +135,7 @@ std::string TimeText(double seconds) {
   constexpr Unit kUnits[] = {{"s", 1.0}, {"ms", 1e-3}, {"µs", 1e-6}, {"ns", 1e-9}};
   for (const Unit& unit : kUnits) {
     const double value = seconds / unit.seconds;
-    // 999.6 would be rounded to 1000.
+    // A value such as 999.6 would be rounded to 1000, so it takes the next unit.
     if (value < 0.9995 && unit.seconds > 1e-9) continue;
     const int decimals = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
     return absl::StrFormat("%.*f %s", decimals, value, unit.name);

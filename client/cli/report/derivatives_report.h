@@ -10,10 +10,10 @@
 
 namespace ricochet::cli {
 
-// A table of the derivatives, and a sentence for each that has not both sides alike.
+// Returns a table of the derivatives, and a sentence for each whose two sides are not alike.
 std::string DerivativesText(const std::vector<Derivative>& derivatives);
 
-// A header and one row for each derivative.
+// Returns a header and one row for each derivative.
 std::string DerivativesCsv(const std::vector<Derivative>& derivatives);
 
 }  // namespace ricochet::cli

@@ -41,7 +41,7 @@ std::string EndText(const FitEnd& end) {
   return "not seen";
 }
 
-// The rows that tell most, with their shares.
+// Names the rows that tell most about an unknown, with their shares.
 std::string SharesText(const std::vector<double>& shares) {
   std::vector<size_t> rows(shares.size());
   std::iota(rows.begin(), rows.end(), size_t{0});
@@ -109,7 +109,7 @@ std::string NotesText(const FitResponse& response) {
   return text.empty() ? "" : absl::StrCat("\nNotes\n", text);
 }
 
-// How well the model fits, and whether the data refuse it.
+// Says how well the model fits, and whether the data refuse it.
 std::string VerdictText(const FitResponse& response) {
   std::string text = absl::StrCat(response.refused ? "REFUSED: " : "", "chi2 ", Rounded(response.chi2), " with ",
                                   response.degrees_of_freedom, " degrees of freedom");

@@ -10,19 +10,19 @@
 
 namespace ricochet::cli {
 
-// Unknowns with their intervals, correlations, residuals of the first rows, and notes.
+// Returns the unknowns with their intervals, correlations, residuals of the first rows, and notes.
 std::string FitText(const FitRequest& request, const FitResponse& response);
 
-// How well the model fits, whether the data refuse it, and the notes: what the rows of CSV do not say.
+// Returns what the rows of CSV do not say: how well the model fits, whether the data refuse it, and the notes.
 std::string FitSummaryText(const FitResponse& response);
 
-// A row for each unknown.
+// Returns a row for each unknown.
 std::string FitCsv(const FitResponse& response);
 
-// A row for each row of the data: its regime, and predicted number and residual of each measured column.
+// Returns a row for each row of the data: its regime, and the prediction and residual of each measured column.
 std::string FitRowsCsv(const FitRequest& request, const FitResponse& response);
 
-// One panel for each measured column, one for all residuals, one for each unknown, and one for the region if it was
+// Draws a panel for each measured column, one for all residuals, one for each unknown, and one for the region if it was
 // asked for. Data stand over the first input that differs by row, else over the number of the row.
 Plot FitPlot(const FitRequest& request, const FitResponse& response);
 

@@ -26,7 +26,7 @@ void AddArrow(const std::pair<double, double>& from, double x, double y, Points&
   points.insert(points.end(), {from, to, barb(1.0), to, barb(-1.0), {NAN, NAN}});
 }
 
-// Lines from centres of mass to the points of contact, and arrows of velocities and normals.
+// Draws lines from centres of mass to the points of contact, and arrows for velocities and normals.
 Panel StrikePanel(const FreeBodies& free, const std::vector<MultiContactPoint>& contacts) {
   Points arms, velocities, normals, centres, points;
   double size = 0.0, speed = 0.0;
@@ -66,7 +66,7 @@ Panel StrikePanel(const FreeBodies& free, const std::vector<MultiContactPoint>& 
   return panel;
 }
 
-// The outcomes as marks on the bars of what is possible.
+// Draws the outcomes as marks on bars, which show what is possible.
 Panel OutcomesPanel(const MultiContactRequest& request, const MultiContactAnswer& answer) {
   Panel panel = {.title = "Outcomes within what is possible", .x_label = "velocity after [m/s, rad/s]"};
   std::vector<std::string> names;
@@ -93,7 +93,7 @@ Panel OutcomesPanel(const MultiContactRequest& request, const MultiContactAnswer
   return panel;
 }
 
-// The velocities after, of bodies or else of contacts, over the stiffness.
+// Draws the velocities after, of bodies or else of contacts, over the stiffness.
 Panel StiffnessPanel(const MultiContactRequest& request, const MultiContactAnswer& answer) {
   const std::vector<StiffnessSample>& samples = answer.stiffness_samples;
   Panel panel = {.title = "Springs",

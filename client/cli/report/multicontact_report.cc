@@ -100,7 +100,7 @@ std::string VerdictText(const MultiContactAnswer& answer) {
              : "Undecided: no outcome was followed to its end.\n";
 }
 
-// Every outcome with its name, those of orders first.
+// Returns every outcome with its name, those of orders first.
 std::vector<std::pair<std::string, const AttainedOutcome*>> OutcomesOf(const MultiContactAnswer& answer) {
   std::vector<std::pair<std::string, const AttainedOutcome*>> all;
   for (const AttainedOutcome& outcome : answer.orders) {
@@ -124,7 +124,7 @@ std::vector<double> Shown(const AttainedOutcome& outcome) {
   return outcome.velocity.empty() ? outcome.contact_velocity_m_s : outcome.velocity;
 }
 
-// The outcomes that the text shows: the first, and springs in any case.
+// Returns the outcomes that the text shows: the first ones, and springs in any case.
 std::vector<std::pair<std::string, const AttainedOutcome*>> ShownOutcomes(const MultiContactAnswer& answer) {
   auto outcomes = OutcomesOf(answer);
   if (outcomes.size() <= kMostRows) return outcomes;
@@ -186,7 +186,7 @@ std::string PossibleText(const MultiContactAnswer& answer) {
   if (answer.possible.empty()) return "";
   Table table;
   for (const PossibleRange& range : answer.possible) {
-    // An end that is rounding beside the other shows as 0.
+    // An end of a range that is only rounding beside the other end is shown as 0.
     const double rounding = 1e-12 * std::max(std::abs(range.lower), std::abs(range.upper));
     const auto shown = [&](double end) { return std::abs(end) <= rounding ? 0.0 : end; };
     table.Add(

@@ -11,20 +11,20 @@
 
 namespace ricochet::cli {
 
-// The verdict first, then the outcomes, what each contact did, the bounds, and what was left out.
+// Returns the verdict first, then the outcomes, what each contact did, the bounds, and what was left out.
 std::string MultiContactText(const MultiContactRequest& request, const MultiContactResponse& response);
 
-// One row for each outcome and sample, and for each end of the bounds.
+// Returns one row for each outcome and sample, and for each end of the bounds.
 std::string MultiContactCsv(const MultiContactRequest& request, const MultiContactResponse& response);
 
-// The names of the numbers of an outcome, which the answer's bounds begin with: its contact velocities, and the
+// Returns the names of the numbers of an outcome, with which the answer's bounds begin: its contact velocities, and the
 // velocities of the system if they are others.
 std::vector<std::string> OutputNames(const MultiContactRequest& request);
 
-// The numbers that have these names.
+// Returns the numbers that have these names.
 std::vector<double> NumbersOf(const AttainedOutcome& outcome);
 
-// The strike of planar bodies, the outcomes of the first state as points on the bars of what is possible, and the
+// Draws the strike of planar bodies, the outcomes of the first state as points on the bars of what is possible, and the
 // outcomes of springs over the stiffness, if a range of it was asked for.
 Plot MultiContactPlot(const MultiContactRequest& request, const MultiContactResponse& response);
 

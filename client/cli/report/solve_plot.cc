@@ -19,7 +19,7 @@ constexpr char kImpulse[] = "normal impulse τ [N s]";
 constexpr char kRestStyle[] = "with points pointtype 1 pointsize 1.5 linewidth 2 linecolor rgb '#404040'";
 constexpr char kStartStyle[] = "with points pointtype 7 pointsize 1.2 linecolor rgb '#404040'";
 constexpr char kEventStyle[] = "with points pointtype 6 pointsize 1.2 linewidth 2 linecolor rgb '#404040'";
-// Joins events between which the path is not straight; the colour follows.
+// This style joins events between which the path is not straight; the colour is appended.
 constexpr char kJoin[] = "with linespoints dashtype 3 pointtype 7 pointsize 0.8 linewidth 1.5 linecolor rgb ";
 
 // --- Over the normal impulse, in a plane ---

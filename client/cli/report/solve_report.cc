@@ -76,7 +76,7 @@ const char* RegimeSentence(Regime regime) {
 // `outcome` is an Outcome or a FreeEnd.
 template <typename End>
 std::string Verdict(const End& outcome) {
-  // There is no outcome to judge.
+  // An impact without an end has no outcome to judge.
   if (!HasEnd(outcome.termination)) return "";
   if (outcome.admissible) return "Admissible.\n";
   const auto breaks = [&outcome](LimitKind kind) {
@@ -99,7 +99,7 @@ std::string Verdict(const End& outcome) {
 std::string CoefficientsText(const Outcome& outcome) {
   const Coefficients& coefficients = outcome.coefficients;
   const EffectiveCoefficients& effective = outcome.effective;
-  // Nothing strikes, so that no ratio of after and before means anything. Outcomes have 0 there.
+  // Nothing strikes, so that ratios of after and before are undefined; outcomes hold 0 there.
   if (outcome.regime == Regime::kSeparating) return "Coefficients\n  none: nothing strikes\n";
   if (!HasEnd(outcome.termination)) return "Coefficients\n  none: the impact has no end that is known\n";
   Table table;
@@ -141,7 +141,7 @@ std::string AccuracyText(const Outcome& outcome) {
   const Accuracy& accuracy = outcome.accuracy;
   if (std::isinf(accuracy.relative_error)) return "  relative error of the contact velocity: not known\n";
   const double tolerance = outcome.plan.relative_tolerance;
-  // The error leaves out what W and the velocity of the contact lose where they are made of other numbers.
+  // The error excludes the rounding of W and of the contact velocity where these are computed from other numbers.
   const bool is_reduced =
       !outcome.bodies_after.empty() || !outcome.rates_after.empty() || outcome.rates_after_rad_s.size() > 1;
   std::string text = absl::StrCat("  relative error of the contact velocity <= ", RoundedUp(accuracy.relative_error),
@@ -200,7 +200,7 @@ std::string CoordinatesText(const Outcome& outcome) {
   return absl::StrCat("\nMechanism after\n", table.Render(2));
 }
 
-// How far the two ends are apart: as the mechanism states it, and with no coordinate held.
+// Compares the end of the mechanism as stated with that in which no coordinate is held.
 std::string EndsText(const Outcome& outcome) {
   if (!outcome.free_end.has_value()) return "";
   const FreeEnd& free = *outcome.free_end;

@@ -256,7 +256,7 @@ class SweepFile final : public NetcdfFile {
     }));
   }
 
-  // The coordinates of the points, where they are no grid.
+  // Writes the coordinates of points that do not form a grid.
   void PutPoints(const SweepChunk& chunk, size_t first) {
     const auto count = static_cast<size_t>(chunk.count);
     if (count == 0) return;
@@ -299,7 +299,7 @@ absl::StatusOr<std::unique_ptr<NetcdfFile>> NetcdfFile::Create(const SweepReques
   if (absl::Status unusable = LoadNetcdf(); !unusable.ok()) return unusable;
   absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
   if (!file.ok()) return file.status();
-  // One way to write each range, so that equal sweeps give equal files.
+  // Equal ranges are always written in the same way, so that equal sweeps give equal files.
   SweepRequest written = request;
   written.end_index = checked->end;
   if (checked->first == 0 && checked->end == PointCount(checked->grid)) written.end_index.reset();

@@ -17,8 +17,8 @@ absl::Status Unusable(absl::string_view why) {
 absl::Status Load(NetcdfLibrary& netcdf) {
   void* const library = dlopen(RICOCHET_NETCDF_LIBRARY, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return Unusable(dlerror());
-  // HDF5 would close its files once more when the process ends, and crashes there if one could not be written. This
-  // comes before anything else of NetCDF.
+  // At the end of the process HDF5 would close its files again, and crash if one could not be written. It must be told
+  // before any other call of NetCDF.
   using LeaveAloneAtExit = int();
   if (auto* const leave = reinterpret_cast<LeaveAloneAtExit*>(dlsym(library, "H5dont_atexit"))) leave();
   netcdf = {.library = library};

@@ -44,7 +44,7 @@ absl::StatusOr<ShardFile> ReadManifest(const std::string& path) {
   return absl::DataLossError(absl::StrCat(path, kManifestEnding, " is no manifest of a shard: ", read.ToString()));
 }
 
-// Where a shard's points begin: the first shards have one point more if the division has a remainder.
+// Returns the first point of a shard. If the division has a remainder, the first shards have one point more.
 int64_t StartOf(int64_t index, int64_t count, int64_t points) {
   return index * (points / count) + std::min(index, points % count);
 }

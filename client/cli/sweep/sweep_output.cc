@@ -149,9 +149,9 @@ void SweepOutput::LeaveForResume(const absl::Status& status, const std::string& 
   Progress::Erase();
   if (!file_.has_value()) return;
   if (!progress_.has_engine()) return file_->Discard();
-  // If this fails, the manifest before stands, and the command below goes on from there.
+  // If this fails, the earlier manifest stays valid, and the command below goes on from there.
   static_cast<void>(file_->Checkpoint(progress_));
-  // The same command would be refused again where another engine has answered.
+  // If another engine has answered, the same command would be refused again.
   const std::string advice = absl::IsFailedPrecondition(status) ? "" : absl::StrCat(" To go on:\n  ", command);
   std::fprintf(stderr, "%s is the first part of the sweep, the points before %lld.%s\n", file_->part_path().c_str(),
                static_cast<long long>(file_->manifest().next_index()), advice.c_str());

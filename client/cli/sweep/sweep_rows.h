@@ -24,7 +24,7 @@ class SweepRows {
   static absl::StatusOr<SweepRows> Create(const std::vector<std::string>& names,
                                           const std::vector<std::string>& wanted);
 
-  // How a cell is read.
+  // Returns how a cell is read.
   Kind KindOf(size_t cell) const { return kinds_[cell]; }
   // Call one of these for each cell that is not skipped, row by row.
   void AddNumber(size_t cell, double value);

@@ -144,7 +144,7 @@ class PointWriter {
         absl::StrAppend(&text, "... and ", Counted(left_out, "more point"), "; --format csv has them all\n");
       absl::StrAppend(&text, "\n", SummaryText(*chunk.summary));
     } else if (format_ == Format::kJson) {
-      // A time would make the file of each run another one.
+      // The elapsed time would make the file differ from run to run.
       SweepSummary summary = *chunk.summary;
       summary.elapsed_s.reset();
       absl::StrAppend(&text, ",\"summary\":", JsonOf(ToProto(summary)), "}\n");

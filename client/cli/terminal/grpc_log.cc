@@ -25,7 +25,7 @@ Alert& LastAlert() {
   return *alert;
 }
 
-// A line is "error:0A00045C:SSL routines::tlsv13 alert certificate required".
+// Keeps the alert of a line such as "error:0A00045C:SSL routines::tlsv13 alert certificate required".
 void KeepAlert(gpr_log_func_args* line) {
   const absl::string_view message = line->message;
   if (!absl::StrContains(message, " alert ")) return;

@@ -35,7 +35,7 @@ constexpr std::array kUnitsByName = {
     Unit{"PowerLaw.alpha", "1/(m/s)^exponent"},
 };
 
-// A longer ending stands before the shorter ones that it ends in.
+// A longer ending stands before the shorter ones that it ends in, so that it is found first.
 constexpr std::array kUnitsByEnding = {
     Unit{"_n_m1_5", "N/m^1.5"},
     Unit{"_n_m_p", "N/m^p"},

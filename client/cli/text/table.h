@@ -12,7 +12,7 @@ namespace ricochet::cli {
 
 class Table {
  public:
-  // How the columns after the first are aligned.
+  // Align says how the columns after the first are aligned.
   enum class Align { kLeft, kRight };
   explicit Table(Align align = Align::kRight) : align_(align) {}
 
@@ -32,7 +32,7 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-// From now on the terminal counts as none: text goes to a file, whose lines do not depend on the terminal of the run.
+// Stops the use of the terminal's width: text now goes to a file, whose lines must not depend on the terminal.
 void ForgetTerminalWidth();
 
 // Returns the text in lines that fit into the terminal, or into 80 columns, each after `indent` spaces.

@@ -21,9 +21,9 @@ namespace ricochet {
 struct RetryPolicy {
   // In [1, 5], including the first attempt, for each server; 1 means no retry.
   int max_attempts = 3;
-  // How often in a row, without a new point, a sweep that has begun is taken up again by another call; UNKNOWN and
-  // INTERNAL, as proxies report a dead server, are reasons too. >= 0; 0 means never. By default a server may be away
-  // for some 20 s, which its drain and a start take.
+  // A sweep that has begun is taken up again by another call at most this often in a row without a new point; UNKNOWN
+  // and INTERNAL, as proxies report a dead server, are reasons too. >= 0; 0 means never. By default a server may be
+  // away for some 20 s, which its drain and a start take.
   int max_resumes = 20;
   std::chrono::milliseconds initial_backoff{100};  // > 0, at most a year, as all times.
   std::chrono::milliseconds max_backoff{2000};     // >= initial_backoff.

@@ -24,12 +24,12 @@ struct CallOptions {
   // The call ends with DEADLINE_EXCEEDED once this time has passed. Absent: a LocalSolver has no deadline, and a Client
   // has that of its ClientOptions.
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
-  // For a caller who has no stop token but can be asked: the call ends with CANCELLED once this returns true. A
+  // This is for a caller who has no stop token but can be asked: the call ends with CANCELLED once it returns true. A
   // LocalSolver asks on the thread of the call; a Client asks before it sends the request and before each chunk of a
   // sweep. Empty: never asked.
   std::function<bool()> is_stopped = {};
-  // The threads that may help a sweep or a batch of a LocalSolver. Null: those of the solver. A Client has no use for
-  // them.
+  // These threads may help a sweep or a batch of a LocalSolver. Null stands for those of the solver. A Client does not
+  // use them.
   std::shared_ptr<Helpers> helpers = {};
 };
 

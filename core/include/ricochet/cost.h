@@ -89,8 +89,8 @@ struct CostTime {
 struct CostError {
   double total = 0.0;
   double numerical = 0.0;  // By rounding and by steps: the distance from the exact answer of the method's own model.
-  // By the effects that the model leaves out: the distance between exact answers. At several contacts it is the widest
-  // range of a contact velocity within which `possible` proves all outcomes; orders and springs prove none.
+  // The effects that the model leaves out cause it: the distance between exact answers. At several contacts it is the
+  // widest range of a contact velocity within which `possible` proves all outcomes; orders and springs prove none.
   double modelling = 0.0;
   friend bool operator==(const CostError&, const CostError&) = default;
 };

@@ -55,7 +55,7 @@ enum class Threshold {
 // Says where the impact takes another course, so that a derivative holds no longer.
 struct NearThreshold {
   Threshold threshold = Threshold::kUnspecified;
-  // How far the number of the scene may move before it, >= 0, in its unit; see ricochet.v1.Derivative.Near.
+  // The number of the scene may move this far before it, >= 0, in its unit; see ricochet.v1.Derivative.Near.
   double distance = 0.0;
   friend bool operator==(const NearThreshold&, const NearThreshold&) = default;
 };

@@ -16,7 +16,7 @@
 
 namespace ricochet {
 
-// Why a request failed, in a form that a program can act on. The numbers are those of ricochet.v1.ErrorReason.
+// Says why a request failed, in a form that a program can act on. The numbers are those of ricochet.v1.ErrorReason.
 enum class ErrorReason {
   kUnspecified = 0,
   kInvalidRequest = 1,       // INVALID_ARGUMENT: the message lists every violation.

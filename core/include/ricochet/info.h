@@ -70,7 +70,6 @@ struct InfoResponse {
   Limits limits = Limits::None();             // INT64_MAX does not limit anything.
   std::optional<ServerLimits> server_limits;  // Absent if no server answers.
   bool certified = false;                     // True if certificates can be asked for.
-  bool finite_duration = false;               // True if impacts that take time can be computed.
   std::vector<std::string> systems;           // The systems that a scene can have, by name: "pendulum", ...
   std::vector<Model> models;                  // The models that can compute an impact, in the order of their numbers.
   friend bool operator==(const InfoResponse&, const InfoResponse&) = default;

@@ -217,8 +217,8 @@ struct RefusedMethod {
 // A MultiContactAnswer says what the contacts can do from one velocity before.
 struct MultiContactAnswer {
   MultiContactVerdict verdict = MultiContactVerdict::kUnspecified;
-  // For kOrderMatters and kOrdersAgreeSpringsDiffer: the output that differs most over its scale, by how much it
-  // differs, and in which two outcomes. The scale is sqrt(2 T g): T is energy_before_j, and an impulse that changes the
+  // These are set for kOrderMatters and kOrdersAgreeSpringsDiffer: the output that differs most over its scale, by how
+  // much, and in which two outcomes. The scale is sqrt(2 T g): T is energy_before_j, and an impulse that changes the
   // output by one unit takes the energy 1/(2 g).
   std::string differing_output;
   double difference = 0.0;

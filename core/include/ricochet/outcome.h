@@ -99,7 +99,7 @@ enum class LimitKind {
   kFriction = 3,  // Friction does positive work: it pushes along the slip instead of against it.
 };
 
-// Why an outcome is inadmissible.
+// A BrokenLimit says why an outcome is inadmissible.
 struct BrokenLimit {
   LimitKind kind = LimitKind::kUnspecified;
   // kSharp: the implied energetic coefficient; kEnergy: E+ - E- in J; kFriction: the work of friction in J.

@@ -128,7 +128,7 @@ enum class Arithmetic {
   kCertified = 3,    // Intervals of any precision, with each digit proved.
 };
 
-// Why an impact was computed in its arithmetic. The numbers are those of ricochet.v1.PlannedArithmetic.Reason.
+// Says why an impact was computed in its arithmetic. The numbers are those of ricochet.v1.PlannedArithmetic.Reason.
 enum class ArithmeticReason {
   kUnspecified = 0,
   kWithinTolerance = 1,  // Plain arithmetic: its bound is within the part of the tolerance that effects leave.

@@ -111,7 +111,7 @@ class PathFollower {
     mode_.branch = LoadingBranch::kUnloading;
     ++compressions_;
     compression_end_ = state_;
-    // v vanishes where it does so in truth, which shifts u by the ratio of their rates.
+    // The true v vanishes at another time, which adds its error times the ratio of the rates to the error of u.
     const double u_rate = contact_.wtn * state_.normal_force - contact_.wtt * state_.spring_force;
     const double v_rate = contact_.wnn * state_.normal_force - contact_.wtn * state_.spring_force;
     compression_force_error_ = error_.OfNormalForce();
@@ -147,7 +147,7 @@ class PathFollower {
   double compression_force_error_ = 0.0, compression_u_error_ = 0.0;
   SectionMode mode_;
   int compressions_ = 0;  // How often v has changed its sign on first loading.
-  // Two largest forces are as good as equal, so that either may be the end of compression.
+  // True if two largest forces agree up to rounding, so that either may be the end of compression.
   bool has_tie_ = false;
   std::optional<int> compressions_before_stick_;
 };

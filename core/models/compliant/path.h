@@ -14,7 +14,7 @@ namespace ricochet::compliant {
 
 enum class FirstStick { kNever, kInCompression, kInRestitution };
 
-// Where the impact has no end, the state reached stands for it. Where it overflows, u and v of that are NaN.
+// If the impact has no end, `end` is the state reached. If that overflows, its u and v are NaN.
 struct PathResult {
   Termination termination = Termination::kRefused;
   ContactState end;

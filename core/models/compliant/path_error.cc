@@ -18,8 +18,8 @@ constexpr double kUnit = 0x1p-53;
 // If a path misses an event by at most this many standard deviations, the true path may have the event.
 constexpr double kDoubt = 8.0;
 
-// How the deviations of a slide grow: in N and v by (C, S), the solutions of x'' = -kn B x that begin as (1, 0) and
-// (0, 1), and by the integral of S in the normal impulse.
+// SlideGrowth holds the factors by which the deviations of a slide grow: C and S, the solutions of x'' = -kn B x that
+// begin as (1, 0) and (0, 1), and the integral of S over the normal impulse.
 struct SlideGrowth {
   double c = 1.0, s = 0.0, s_integral = 0.0;
 };
@@ -145,13 +145,13 @@ void PathError::CarryModes(const NormalModes& modes, const Phase& phase, double 
   std::array<double, 2> y_error, rate_error;
   for (size_t i = 0; i < 2; ++i) {
     const double w2 = i == 0 ? fast2 : slow2;
-    // Both frequencies err by some units, and their phases by as much of themselves.
+    // Each frequency has a relative error of a few units, and so has each phase.
     y_error[i] =
         2.5 * SumOfSizes(modes.y[i] * phase.c[i], modes.rate[i] * phase.s[i]) + 4.0 * time * std::fabs(rate[i]);
     rate_error[i] =
         2.5 * SumOfSizes(modes.rate[i] * phase.c[i], w2 * modes.y[i] * phase.s[i]) + 4.0 * time * w2 * std::fabs(y[i]);
   }
-  // Eigenvectors that are turned by their rounding mix the oscillations, as far as their phases have come apart.
+  // Rounding errors of the eigenvectors mix the two oscillations, the more the further their phases have come apart.
   const double apart = modes.w.fast - modes.w.slow;
   const double longest = apart * time <= 2.0 ? time : 2.0 / apart;
   const double mixing = 4.0 * std::fabs(modes.c * modes.s) * fast2 / (modes.w.fast + modes.w.slow) * longest;
@@ -178,7 +178,7 @@ void PathError::LeaveModes(const SectionMode& mode, const NormalModes& modes, co
                         .spring_force = 2.5 * SumOfSizes(modes.c * y[0], modes.s * y[1]) / ratio,
                         .u = 2.5 * ratio * SumOfSizes(modes.c * rate[0], modes.s * rate[1]),
                         .v = 2.5 * SumOfSizes(modes.s * rate[0], modes.c * rate[1]) / root};
-  // An event is found to some units of its time. What was set to its value at the event had missed that by this much.
+  // The time of an event is rounded. A number that was set to its value at the event had missed it by this much.
   if (end.turns) {
     rounding.v += std::fabs(modes.s * rate[0] + modes.c * rate[1]) / root / kUnit;
   } else if (end.passes_largest || contact_.mu > 1.0) {

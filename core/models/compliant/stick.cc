@@ -15,7 +15,7 @@ struct TimedEnd {
   SectionEnd end;
 };
 
-// The time from which the particle may break away towards `side`.
+// Returns the earliest time at which the particle may break away towards `side`.
 SearchStart BreakAwayStart(const SpringContact& contact, const SectionMode& mode, const ContactState& state, int side,
                            const Frequencies& w) {
   // The impact starts at the tip of the cone, where the margin is 0.
@@ -30,7 +30,7 @@ int LikelierSide(const SpringContact& contact, const ContactState& state) {
   return leaning < 0.0 ? -1 : 1;
 }
 
-// The first of: v = 0, and slip towards either side.
+// Finds the first of three events: v = 0, and slip towards either side.
 TimedEnd TurnOrBreakAway(const SpringContact& contact, const SectionMode& mode, const ContactState& state,
                          const NormalModes& modes) {
   const int likelier = LikelierSide(contact, state);
@@ -51,7 +51,7 @@ TimedEnd TurnOrBreakAway(const SpringContact& contact, const SectionMode& mode, 
   return first;
 }
 
-// On the way in N rises to the event. The time at which N passes its largest value so far, if that comes first.
+// Returns the time at which N passes its largest value so far, or kNever. On the way in N rises until `event`.
 double TimeOfLargest(const SpringContact& contact, const SectionMode& mode, const NormalModes& modes, double event) {
   const double largest = mode.largest_normal_force;
   const Signal force = NormalForce(contact, mode, modes);

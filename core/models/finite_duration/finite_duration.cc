@@ -17,12 +17,14 @@
 namespace ricochet::finite_duration {
 namespace {
 
-// Rounding, relative to the sizes of the terms of a number. That of the steps goes to and fro.
+// Rounding, relative to the sizes of the terms of a number, of all but the steps,
+constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+// and with that of the steps, which goes to and fro.
 double RoundingOf(const Path& path) {
-  return std::numeric_limits<double>::epsilon() * (64.0 + std::sqrt(static_cast<double>(path.steps)));
+  return kRounding + std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(path.steps));
 }
 
-// The sizes of what adds up to the velocities at the end.
+// Returns the sum of the magnitudes of the terms that add up to the velocities at the end.
 double TermsOf(const ScaledContact& contact, const Path& path) {
   const Motion& end = path.end;
   const double forces = (std::fabs(contact.at) + std::fabs(contact.an)) * end[kTime];
@@ -32,8 +34,8 @@ double TermsOf(const ScaledContact& contact, const Path& path) {
   return terms;
 }
 
-// How far the end of a straight path that is misplaced by `shift` in the normal impulse may be off in u and v. Where
-// slip stops or starts so close to the end that it may lie on the other side of it, any slope may be that of the end.
+// Bounds the errors of u and v if the end of a straight path is misplaced by `shift` in the normal impulse. If slip
+// stops or starts so close to the end that it may lie on the other side of it, any slope may hold there.
 double ChangeOfVelocity(const ScaledContact& contact, const Path& path, double shift) {
   constexpr double kNear = 4.0;
   const auto& [u_slope, v_slope] = path.straight_slopes;
@@ -63,8 +65,8 @@ double ErrorOfStraightPath(const ScaledContact& contact, const Path& path) {
   return error / std::max(1.0, std::fabs(contact.u0));
 }
 
-// How far u may be off beyond its own local errors because of the springs along t and n. An error of the tangential
-// force swings into a velocity, and a relative one of the normal force counts as that part of the mean size of u.
+// Bounds the error of u that the springs along t and n add to its own local errors. An error of the tangential force
+// becomes a velocity by oscillation; a relative error of the normal force counts as that part of the mean |u|.
 double ErrorOfCompliantSlip(const ScaledContact& contact, const Path& path, double normal) {
   const double swing = std::sqrt(contact.wtt * contact.ratio_squared / contact.stiffness);
   const double mean = 0.5 * (std::fabs(contact.u0) + path.peaks.slip);
@@ -78,15 +80,15 @@ double ErrorOfAnyPath(const ScaledContact& contact, const Path& path) {
   const Motion& end = path.end;
   const Motion& local = path.local_errors;
   const double growth = end[kV] > 0.0 ? path.peaks.restitution_speed / end[kV] : 1.0;
-  // A force with a given relative error changes the velocities by that part of their change.
+  // A relative error of a force causes the same relative error of the change of velocity.
   const double normal = std::max(local[kPlace] / std::max(1.0, path.peaks.place), local[kV]);
   const double shift = std::fabs(contact.at) * end[kTime] * normal;
   double error = std::max(growth * normal, local[kU]) + shift;
   if (contact.compliant) {
     error = growth * std::max(normal, local[kU] + ErrorOfCompliantSlip(contact, path, normal)) + shift;
   }
-  const double rounding = RoundingOf(path) * TermsOf(contact, path);
-  return (safety * error + rounding) / std::max(1.0, std::fabs(contact.u0));
+  // The local errors contain the rounding of the steps.
+  return (safety * error + kRounding * TermsOf(contact, path)) / std::max(1.0, std::fabs(contact.u0));
 }
 
 // True if finite forces press the contact together where it parts, at a velocity that may be nothing but error. The
@@ -189,30 +191,24 @@ struct EstimatedPath {
   }
 };
 
-constexpr double kFinest = 5e-16;
+constexpr double kFinest = 1e-14;
 constexpr double kMiddle = 1e-9;
 
 // Returns the tolerance at which a path that has no end at those in `tried` is followed again; nothing if no other may
 // find one.
 std::optional<double> NextTry(PathEnd how, const std::vector<double>& tried) {
-  constexpr double kCoarse = 1e-7, kMuchFiner = 0.01;
-  const double last = tried.back();
-  if (how != PathEnd::kBudgetUsedUp) {
-    // Steps that err by more than a contact moves may lose its end.
-    if (tried.size() > 1 || last <= kMiddle) return std::nullopt;
-    return kMuchFiner * std::min(last, kCoarse);
-  }
-  // A path of many sticks and slips uses up its budget only if it is fine. A force far above that of the impact leaves
-  // it to a small rest of the energy whether the bodies part: that needs a fine path.
-  if (tried.size() == 1 && last < kMiddle) return kMiddle;
-  return tried.front() == kFinest || last == kFinest ? std::nullopt : std::optional(kFinest);
+  if (how != PathEnd::kBudgetUsedUp) return std::nullopt;
+  // A path of many sticks and slips uses up its budget only if it is fine. If a force far exceeds that of the impact, a
+  // small rest of the energy decides whether the bodies separate, which only a fine path resolves.
+  if (tried.size() == 1) return kMiddle;
+  return tried.front() == kFinest || tried.back() == kFinest ? std::nullopt : std::optional(kFinest);
 }
 
 // Integrates until the estimated error is within `tolerance`, or rounding forbids any better.
 EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator, double tolerance, StopCheck& stop) {
   constexpr double kFirst = 0.1;
   constexpr double kTighter = 0.1;
-  constexpr double kCoarsest = 1e-6;
+  constexpr double kCoarsest = 1e-10;
   EstimatedPath result;
   std::vector<double> without_end;
   double next = std::clamp(kFirst * tolerance, kFinest, kCoarsest);
@@ -220,7 +216,7 @@ EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator,
     Path path = FollowPath(contact, integrator, next, stop, nullptr);
     result.Count(path);
     const bool had_end = result.path.HasEnd();
-    // A finer path that finds no end says less than the one before, if it is known that that has one.
+    // A finer path that finds no end says less than the coarser one before it, if that one is known to end.
     if (!path.HasEnd() && had_end && std::isfinite(result.error)) return result;
     result.path = std::move(path);
     result.tolerance = next;
@@ -246,12 +242,6 @@ Impact Stopped() {
 }
 
 }  // namespace
-
-const char* WhyUnavailable() {
-  static const bool is_whole = Integrator::LibraryIsWhole();
-  return is_whole ? nullptr
-                  : "another library of this program stands in for functions of SUNDIALS, which must be linked first";
-}
 
 Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped) {
   const PlanarProblem& stated = problem.contact;

@@ -3,14 +3,14 @@
 //   d(u, v)/dt = W (F, N) + (a_t, a_n),   d' = -v,   d(0) = 0
 //
 // Solve integrates W, (u0, v0), friction, a normal spring (linear, Hertz, or Hunt and Crossley) and the acceleration
-// (a_t, a_n) by finite forces, in SI units, with CVODE's Adams formulas of variable order. The contact is rigid along
-// t, or a linear spring with the tangential compliance of Stronge's particle (core/models/compliant/compliant.h).
+// (a_t, a_n) by finite forces, in SI units, with Runge-Kutta formulas of order 8. The contact is rigid along t, or a
+// linear spring with the tangential compliance of Stronge's particle (core/models/compliant/compliant.h).
 // Accuracy: velocities within `tolerance`, down to 1e-12 without forces and else as far as double precision has it;
 // error_estimate says what was reached, and is above `tolerance` where that could not be met. Everything else has
 // errors of like relative size, except near 0. An impact that does not end within its budgets is answered with the
-// state reached: regime wedged, an infinite error, and the termination that says why. Results have the same bits on one
-// machine only, because SUNDIALS calls the C library's pow. Bad input: none gets here (core/scene/validate.h). v0 >= 0:
-// nothing changes, whatever the forces. Laws, ends, phases, units and accuracy: docs/theory/finite_duration.md.
+// state reached: regime wedged, an infinite error, and the termination that says why. Bad input: none gets here
+// (core/scene/validate.h). v0 >= 0: nothing changes, whatever the forces. Laws, ends, phases, units and accuracy:
+// docs/theory/finite_duration.md.
 
 #ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_FINITE_DURATION_H_
 #define RICOCHET_CORE_MODELS_FINITE_DURATION_FINITE_DURATION_H_
@@ -59,17 +59,9 @@ struct Impact : ImpactEnd<double> {
   std::vector<TimedInstant> events;
 };
 
-// Says in a clause why this process lacks the model; null if it has it. Without the model, Solve must not be called.
-const char* WhyUnavailable();
-inline bool IsAvailable() { return WhyUnavailable() == nullptr; }
-
 // Asks `stopped` every few dozen steps, in less than a millisecond, and ends soon after it says true.
 Impact Solve(
     const Problem& problem, absl::FunctionRef<bool()> stopped = [] { return false; });
-
-// The C library's base^exponent, base >= 0, as SUNDIALS takes it where it chooses steps. Its last bits, and with them
-// those of Solve, differ from one machine to another.
-double LibraryPower(double base, double exponent);
 
 }  // namespace ricochet::finite_duration
 

@@ -39,7 +39,7 @@ FrictionState CompliantFrictionAfter(const ScaledContact& contact, const Mode& m
 
 FrictionState FrictionAtRest(const ScaledContact& contact, double normal) {
   if (contact.smooth) return FrictionState::kNone;
-  // Nothing else pulls, so the comparison is the same at every N; this form of it has no rounding.
+  // Without a finite tangential force the comparison is the same for every N, and holds_freely has no rounding.
   if (contact.at == 0.0) return contact.holds_freely ? FrictionState::kStick : SlipTowards(contact.wtn);
   const double drive = contact.wtn * normal + contact.at;
   return std::fabs(drive) <= contact.mu_static * contact.wtt * normal ? FrictionState::kStick : SlipTowards(drive);

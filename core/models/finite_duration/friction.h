@@ -12,7 +12,7 @@ FrictionState FrictionAtStart(const ScaledContact& contact);
 FrictionState FrictionAtRest(const ScaledContact& contact, double normal);
 // The state after kUpper or kLower has fallen; that of `mode` if it goes on.
 FrictionState FrictionAfter(const ScaledContact& contact, const Mode& mode, const Motion& y, Guard fallen);
-// Says whether v < 0 will fall for ever: only forces that press drive a contact of rank one that friction holds.
+// Says whether v < 0 lasts for ever, which is so only if forces press a contact of rank one that friction holds.
 bool NeverReverses(const ScaledContact& contact, const Mode& mode, const Motion& y);
 
 }  // namespace ricochet::finite_duration

@@ -1,178 +1,157 @@
 #include "core/models/finite_duration/integrator.h"
 
-#include <cvode/cvode.h>
-#include <dlfcn.h>
-#include <sundials/sundials_math.h>
-#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
-
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-
-#include "core/base/invariant.h"
-#include "core/models/finite_duration/finite_duration.h"
+#include <limits>
 
 namespace ricochet::finite_duration {
 namespace {
 
-// The parts in a vector. Only a contact that is pulled integrates kStretch, the last one.
-Motion MotionIn(N_Vector vector) {
-  Motion motion;
-  motion[kStretch] = 1.0;
-  std::copy_n(NV_DATA_S(vector), NV_LENGTH_S(vector), motion.begin());
-  return motion;
+// The first step of a mode is so small that a guard which falls from 0 at once is found before anything moves.
+constexpr double kFirstSize = 0x1p-30;
+constexpr double kMostGrowth = 64.0, kLeastGrowth = 0.125;
+constexpr double kSafety = 0.9;
+constexpr double kRounding = 0x1p-54;
+
+// True if the guard `i` has a root between two values: those that end the mode fall, the others only change sign.
+bool HasRoot(size_t i, double before, double after) {
+  const bool falls = before > 0.0 && after <= 0.0;
+  return falls || (i >= kModeGuards && before < 0.0 && after >= 0.0);
 }
 
-void Write(const Motion& motion, N_Vector vector) {
-  std::copy_n(motion.begin(), NV_LENGTH_S(vector), NV_DATA_S(vector));
+// A search for roots subtracts values and divides by the difference.
+double InRange(double guard) { return std::clamp(guard, -0x1p1000, 0x1p1000); }
+
+double EighthRoot(double x) { return std::sqrt(std::sqrt(std::sqrt(x))); }
+
+// The growth by which a step has an error of about the tolerance, over which its error now is `size`.
+double GrowthFor(double size) {
+  return size < HUGE_VAL ? std::clamp(kSafety / EighthRoot(size), kLeastGrowth, kMostGrowth) : kLeastGrowth;
 }
-
-// Checks a call that fails only where this program is wrong.
-void Require(int flag) { CheckInvariant(flag >= 0, "CVODE refused a call"); }
-
-// CVODE's search for roots multiplies a guard by a step and by another guard. Steps and guards within these limits keep
-// its products in the range of doubles; a search that meets an infinity or a NaN never ends.
-constexpr double kLargest = 0x1p500;
-constexpr double kSmallest = 0x1p-500;
-
-double InRangeOfSearch(double guard) {
-  return guard == 0.0 ? guard : std::copysign(std::clamp(std::fabs(guard), kSmallest, kLargest), guard);
-}
-
-// Returns the address at which the file of a function was loaded.
-template <typename Function>
-const void* HomeOf(Function* function) {
-  Dl_info info = {};
-  return dladdr(reinterpret_cast<const void*>(function), &info) != 0 ? info.dli_fbase : nullptr;
-}
-
-void IgnoreMessage(int /*code*/, const char* /*module*/, const char* /*function*/, char* /*message*/, void* /*data*/) {}
 
 }  // namespace
 
-bool Integrator::LibraryIsWhole() {
-  // Old releases of SUNDIALS have the first of each pair alone.
-  return HomeOf(&N_VClone) == HomeOf(&N_VScaleAddMulti) && HomeOf(&N_VNew_Serial) == HomeOf(&N_VScaleAddMulti_Serial);
-}
-
-Integrator::Integrator(const ScaledContact& contact)
-    : contact_(contact),
-      y_(N_VNew_Serial(contact.pulled ? kParts : kParts - 1, context_)),
-      absolute_(N_VClone(y_)),
-      errors_(N_VClone(y_)),
-      memory_(CVodeCreate(CV_ADAMS, context_)) {
-  N_VConst(0.0, y_);
-  N_VConst(1.0, absolute_);
-  fixed_point_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
-  Require(CVodeInit(memory_, Rates, 0.0, y_));
-  Require(CVodeSVtolerances(memory_, 1.0, absolute_));
-  Require(CVodeSetUserData(memory_, this));
-  Require(CVodeSetMaxStep(memory_, kLargest));
-  Require(CVodeSetNonlinearSolver(memory_, fixed_point_));
-  Require(CVodeRootInit(memory_, kGuards, Roots));
-  std::array<int, kGuards> directions = {};
-  std::fill_n(directions.begin(), static_cast<size_t>(kModeGuards), -1);
-  Require(CVodeSetRootDirection(memory_, directions.data()));
-  Require(CVodeSetNoInactiveRootWarn(memory_));
-  Require(CVodeSetErrHandlerFn(memory_, IgnoreMessage, nullptr));
-}
-
-Integrator::~Integrator() {
-  CVodeFree(&memory_);
-  SUNNonlinSolFree(fixed_point_);
-  N_VDestroy(errors_);
-  N_VDestroy(absolute_);
-  N_VDestroy(y_);
-}
-
 void Integrator::Begin(const Mode& mode, const Motion& y, double tolerance) {
-  Count();
   mode_ = mode;
-  Write(y, y_);
-  Motion absolute;
+  before_ = y_ = y;
+  tolerance_ = tolerance;
+  absolute_.fill(1.0);
   const double slip = std::max(1.0, std::fabs(contact_.u0));
-  absolute.fill(tolerance);
-  absolute[kU] *= slip;
-  absolute[kTangentWork] *= slip;
-  absolute[kFrictionLoss] *= slip;
-  absolute[kV] *= Pace(contact_, mode);
-  for (const Part part : kForceParts) absolute[part] *= contact_.stiffness;
+  absolute_[kU] = absolute_[kTangentWork] = absolute_[kFrictionLoss] = slip;
+  absolute_[kV] = Pace(contact_, mode);
+  for (const Part part : kForceParts) absolute_[part] *= contact_.stiffness;
   // A weak pull ends the contact where damping has left as little of N as the pull.
   constexpr double kWeakest = 0x1p-60;
-  absolute[kStretch] *= std::clamp(std::max(std::fabs(contact_.an), std::fabs(contact_.at)), kWeakest, 1.0);
-  Write(absolute, absolute_);
-  Require(CVodeReInit(memory_, 0.0, y_));
-  Require(CVodeSVtolerances(memory_, tolerance, absolute_));
+  const double pull = std::clamp(std::max(std::fabs(contact_.an), std::fabs(contact_.at)), kWeakest, 1.0);
+  absolute_[kStretch] = contact_.pulled ? pull : HUGE_VAL;
   s_ = previous_s_ = 0.0;
-  counted_since_begin_ = {0, 0};
-  step_of_errors_ = 0;
+  next_size_ = kFirstSize;
+  guards_before_ = GuardsAt(contact_, mode_, y_);
 }
 
-Integrator::Progress Integrator::Step(std::array<bool, kModeGuards>& fallen) {
-  // CVODE takes from it only the direction and the size of the first step.
-  constexpr double kAhead = 1.0;
-  fallen.fill(false);
-  previous_s_ = s_;
-  const int flag = CVode(memory_, s_ + kAhead, y_, &s_, CV_ONE_STEP);
-  if (flag == CV_ILL_INPUT) return Progress::kBeginAnew;
-  if (flag < 0) return Progress::kFailed;
-  AddLocalErrors();
-  if (flag != CV_ROOT_RETURN) return Progress::kStep;
-  std::array<int, kGuards> found;
-  Require(CVodeGetRootInfo(memory_, found.data()));
-  for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = found[i] != 0;
-  return Progress::kStep;
+Integrator::End Integrator::After(double h) {
+  right_hand_sides_ += static_cast<int64_t>(kStages - 1);
+  const auto rates = [this](const Motion& y) { return RatesAt(contact_, mode_, y); };
+  return RungeKuttaStep(rates, before_, rates_before_, h);
 }
 
-Motion Integrator::y() const { return MotionIn(y_); }
-
-Motion Integrator::Between(double s) {
-  const Motion now = y();
-  Require(CVodeGetDky(memory_, s, 0, y_));
-  const Motion between = y();
-  Write(now, y_);
-  return between;
+double Integrator::SizeOf(const End& end) const {
+  double sum = 0.0;
+  for (size_t i = 0; i < kParts; ++i) {
+    const double most = tolerance_ * (std::fabs(before_[i]) + absolute_[i]);
+    sum += Square(end.error[i] / std::max(most, std::numeric_limits<double>::min()));
+  }
+  return std::sqrt(sum / static_cast<double>(end.error.size()));
 }
 
-std::pair<int64_t, int64_t> Integrator::TakeCosts() {
-  Count();
-  return {std::exchange(steps_, 0), std::exchange(right_hand_sides_, 0)};
+// The formula of order 8, which is followed, errs by less than that of order 7 by about the size of a step, which is
+// the eighth root of the error. Powers of q that are not integers have no eighth derivative at q = 0, nor order there.
+double Integrator::ShareOfOrder8(const End& end) const {
+  const bool is_smooth = !contact_.rooted || 2.0 * contact_.exponent == std::round(2.0 * contact_.exponent);
+  return is_smooth ? std::min(1.0, EighthRoot(tolerance_ * SizeOf(end))) : 1.0;
 }
 
-int Integrator::Rates(realtype /*s*/, N_Vector y, N_Vector rates, void* data) {
-  const Integrator& self = *static_cast<const Integrator*>(data);
-  Write(RatesAt(self.contact_, self.mode_, MotionIn(y)), rates);
-  return 0;
+bool Integrator::TakeWholeStep(double& h, End& end) {
+  h = next_size_;
+  while (previous_s_ + h > previous_s_) {
+    end = After(h);
+    const double size = SizeOf(end);
+    next_size_ = h * GrowthFor(size);
+    if (size <= 1.0) return true;
+    h = next_size_;
+  }
+  return false;
 }
 
-int Integrator::Roots(realtype /*s*/, N_Vector y, realtype* values, void* data) {
-  const Integrator& self = *static_cast<const Integrator*>(data);
-  const Guards guards = GuardsAt(self.contact_, self.mode_, MotionIn(y));
-  std::transform(guards.begin(), guards.end(), values, InRangeOfSearch);
-  constexpr int kGiveUp = -1;
-  return std::any_of(guards.begin(), guards.end(), [](double guard) { return std::isnan(guard); }) ? kGiveUp : 0;
+Guards Integrator::SlopesAt(const Motion& y, const Guards& guards, double h) const {
+  const double ahead = 0x1p-20 * h;
+  const Motion rates = RatesAt(contact_, mode_, y);
+  Motion next;
+  for (size_t i = 0; i < kParts; ++i) next[i] = y[i] + ahead * rates[i];
+  Guards slopes = GuardsAt(contact_, mode_, next);
+  for (size_t i = 0; i < kGuards; ++i) slopes[i] = (slopes[i] - guards[i]) / ahead;
+  return slopes;
 }
 
-void Integrator::AddLocalErrors() {
-  long steps = 0;
-  Require(CVodeGetNumSteps(memory_, &steps));
-  if (steps == step_of_errors_) return;
-  step_of_errors_ = steps;
-  Require(CVodeGetEstLocalErrors(memory_, errors_));
-  for (sunindextype i = 0; i < NV_LENGTH_S(errors_); ++i) {
-    local_errors_[static_cast<size_t>(i)] += std::fabs(NV_Ith_S(errors_, i));
+std::optional<double> Integrator::FindDip(size_t i, double h, double after, double slope_before, double slope_after) {
+  const double before = guards_before_[i];
+  const double side = before > 0.0 ? 1.0 : -1.0;
+  if (!(side * slope_before < 0.0 && side * slope_after > 0.0)) return std::nullopt;
+  // The tangents at the ends meet below a dip between them.
+  const double meet = (after - slope_after * h - before) / (slope_before - slope_after);
+  if (!(side * (before + slope_before * meet) < 0.0)) return std::nullopt;
+  const auto guard = [&](double at) { return side * GuardsAt(contact_, mode_, After(at).y)[i]; };
+  constexpr int kBits = 20;
+  const auto [place, least] = boost::math::tools::brent_find_minima(guard, 0.0, h, kBits);
+  return HasRoot(i, before, side * least) ? std::optional(place) : std::nullopt;
+}
+
+void Integrator::CutAtRoot(double& h, End& end) {
+  const Guards slopes_before = SlopesAt(before_, guards_before_, h);
+  for (size_t i = 0; i < kGuards; ++i) {
+    Guards guards = GuardsAt(contact_, mode_, end.y);
+    if (!HasRoot(i, guards_before_[i], guards[i])) {
+      const Guards slopes = SlopesAt(end.y, guards, h);
+      const std::optional<double> dip = FindDip(i, h, guards[i], slopes_before[i], slopes[i]);
+      if (!dip.has_value()) continue;
+      h = *dip;
+      end = After(h);
+      guards = GuardsAt(contact_, mode_, end.y);
+    }
+    const double after = guards[i];
+    const auto guard = [&](double at) { return InRange(GuardsAt(contact_, mode_, After(at).y)[i]); };
+    // A turning point to half of the digits has the value there to all of them.
+    const boost::math::tools::eps_tolerance<double> closeness(i < kModeGuards ? 52 : 26);
+    std::uintmax_t evaluations = 100;
+    h = boost::math::tools::toms748_solve(guard, 0.0, h, InRange(guards_before_[i]), InRange(after), closeness,
+                                          evaluations)
+            .second;
+    end = After(h);
   }
 }
 
-void Integrator::Count() {
-  long steps = 0;
-  long right_hand_sides = 0;
-  Require(CVodeGetNumSteps(memory_, &steps));
-  Require(CVodeGetNumRhsEvals(memory_, &right_hand_sides));
-  steps_ += steps - counted_since_begin_.first;
-  right_hand_sides_ += right_hand_sides - counted_since_begin_.second;
-  counted_since_begin_ = {steps, right_hand_sides};
+bool Integrator::Step(std::array<bool, kModeGuards>& fallen) {
+  previous_s_ = s_;
+  before_ = y_;
+  rates_before_ = RatesAt(contact_, mode_, y_);
+  ++right_hand_sides_;
+  double h = 0.0;
+  End end;
+  if (!TakeWholeStep(h, end)) return false;
+  CutAtRoot(h, end);
+  ++steps_;
+  s_ = previous_s_ + h;
+  y_ = end.y;
+  const double share = ShareOfOrder8(end);
+  for (size_t i = 0; i < kParts; ++i) {
+    local_errors_[i] += share * std::fabs(end.error[i]) + kRounding * std::fabs(y_[i]);
+  }
+  const Guards guards = GuardsAt(contact_, mode_, y_);
+  for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = HasRoot(i, guards_before_[i], guards[i]);
+  guards_before_ = guards;
+  return std::none_of(guards.begin(), guards.end(), [](double guard) { return std::isnan(guard); });
 }
-
-double LibraryPower(double base, double exponent) { return SUNRpowerR(base, exponent); }
 
 }  // namespace ricochet::finite_duration

@@ -1,75 +1,73 @@
-// Integrator: CVODE for one contact of finite duration, step by step, with the roots of its guards.
+// Integrator: one contact of finite duration, step by step, up to the roots of its guards.
 //
-// It uses Adams' formulas of variable order. This header and its source are the only files that know SUNDIALS.
+// Its steps are those of Runge-Kutta formulas of orders 8 and 7, its roots those of TOMS 748 in Boost.Math. The size of
+// a step follows from square roots alone, so that all machines take the same steps.
 
 #ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_INTEGRATOR_H_
 #define RICOCHET_CORE_MODELS_FINITE_DURATION_INTEGRATOR_H_
 
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
-#include <sundials/sundials_nonlinearsolver.h>
-
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "core/models/finite_duration/guards.h"
+#include "core/models/finite_duration/runge_kutta.h"
 
 namespace ricochet::finite_duration {
 
 class Integrator {
  public:
-  // False if another library that was loaded before SUNDIALS has functions of the same names, as that of Simbody has:
-  // then those are called with data that they do not know, and no integrator may be made.
-  static bool LibraryIsWhole();
-
-  explicit Integrator(const ScaledContact& contact);
-  ~Integrator();
+  explicit Integrator(const ScaledContact& contact) : contact_(contact) {}
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
 
   // Starts anew at s = 0, in `mode`.
   void Begin(const Mode& mode, const Motion& y, double tolerance);
 
-  enum class Progress {
-    kStep,
-    kBeginAnew,  // A guard is 0 at the last root and just after it: the integration has to begin anew from there.
-    kFailed
-  };
-  // Goes to the end of a step or the next root, and marks in `fallen` the guards that are 0 there.
-  Progress Step(std::array<bool, kModeGuards>& fallen);
+  // Goes to the end of a step or the next root, and marks in `fallen` the guards that have fallen to 0 there. Returns
+  // false if no step is small enough.
+  bool Step(std::array<bool, kModeGuards>& fallen);
 
-  Motion y() const;
+  const Motion& y() const { return y_; }
   double s() const { return s_; }
   double previous_s() const { return previous_s_; }
   // The motion anywhere in the last step.
-  Motion Between(double s);
+  Motion Between(double s) { return After(s - previous_s_).y; }
 
-  // Returns the sum of the sizes of the local errors of each part since the last call, as CVODE estimates them.
+  // Returns the sum of the sizes of the local errors of each part since the last call, as the formula of order 7
+  // estimates them.
   Motion TakeLocalErrors() { return std::exchange(local_errors_, Motion{}); }
   // Returns the steps and the evaluations of the rates since the last call.
-  std::pair<int64_t, int64_t> TakeCosts();
+  std::pair<int64_t, int64_t> TakeCosts() { return {std::exchange(steps_, 0), std::exchange(right_hand_sides_, 0)}; }
 
  private:
-  static int Rates(realtype s, N_Vector y, N_Vector rates, void* data);
-  static int Roots(realtype s, N_Vector y, realtype* values, void* data);
-  void AddLocalErrors();
-  void Count();
+  using End = RungeKuttaEnd<kParts>;
+  // The motion `h` after the start of the step, which begins at `before_`.
+  End After(double h);
+  // The size of the error of a step over the tolerance: a step is taken if it is at most 1.
+  double SizeOf(const End& end) const;
+  // The error of the step over that of the formula of order 7.
+  double ShareOfOrder8(const End& end) const;
+  bool TakeWholeStep(double& h, End& end);
+  // Cuts the step of size `h` at the first root in it.
+  void CutAtRoot(double& h, End& end);
+  // Returns where in a step of size `h` the guard `i`, which has one sign at both ends, has another; nothing if it is
+  // not seen to.
+  std::optional<double> FindDip(size_t i, double h, double after, double slope_before, double slope_after);
+  // Returns how fast the guards change where the motion is y.
+  Guards SlopesAt(const Motion& y, const Guards& guards, double h) const;
 
   const ScaledContact& contact_;
   Mode mode_;
-  sundials::Context context_;
-  N_Vector y_;
-  N_Vector absolute_;
-  N_Vector errors_;
-  void* memory_;
-  SUNNonlinearSolver fixed_point_;
-  double s_ = 0.0;
-  double previous_s_ = 0.0;
-  int64_t steps_ = 0;
-  int64_t right_hand_sides_ = 0;
-  std::pair<int64_t, int64_t> counted_since_begin_ = {0, 0};  // These steps and evaluations are in the sums above.
-  long step_of_errors_ = 0;                                   // The step whose local errors were taken last.
+  double tolerance_ = 0.0;
+  Motion absolute_ = {};  // Errors up to these times the tolerance count as small.
+  Motion before_ = {}, y_ = {};
+  Motion rates_before_ = {};
+  Guards guards_before_ = {};
+  double s_ = 0.0, previous_s_ = 0.0;
+  double next_size_ = 0.0;
+  int64_t steps_ = 0, right_hand_sides_ = 0;
   Motion local_errors_ = {};
 };
 

@@ -70,16 +70,8 @@ class PathFollower {
 
   void TakeStep() {
     std::array<bool, kModeGuards> fallen;
-    const Integrator::Progress progress = integrator_.Step(fallen);
-    const bool moved = integrator_.s() > 0.0;
-    const bool failed =
-        progress == Integrator::Progress::kFailed || (progress == Integrator::Progress::kBeginAnew && !moved);
-    if (failed) return EndPath(PathEnd::kNeverEnds);
-    if (progress == Integrator::Progress::kBeginAnew) {
-      mode_changed_ = true;
-      return;
-    }
-    const Motion next = integrator_.y();
+    if (!integrator_.Step(fallen)) return EndPath(PathEnd::kNeverEnds);
+    const Motion& next = integrator_.y();
     if (RunsBack(next[kTime]) || LeavesRange(next)) return EndPath(PathEnd::kNeverEnds);
     y_ = next;
     if (history_ != nullptr) history_->AddSamplesOfStep(mode_, y_, stop_);
@@ -112,7 +104,7 @@ class PathFollower {
 
   bool ParticleFollowsNormal() const { return contact_.coupled && contact_.compliant; }
 
-  // Where v is far below the unit of the tolerance, all that follows from it may be rounding. A time that runs back is.
+  // If v is far below the unit of the tolerance, results may be rounding alone. A time that runs back shows this.
   bool RunsBack(double time) const {
     constexpr double kRounding = 1e-9;
     return time < y_[kTime] * (1.0 - kRounding) || time < 0.0;
@@ -216,15 +208,10 @@ class PathFollower {
     SetFriction(next);
   }
 
-  // Sets to 0 a velocity that has fallen to 0. A root is known to 1e-14 of s, in which a steep velocity goes far:
-  // Newton's step takes it closer, and what is left of it is an error.
+  // Sets to 0 a velocity that has fallen to 0. What is left of it at the root counts as an error.
   void CutOff(size_t velocity) {
     const Motion rates = RatesAt(contact_, mode_, y_);
-    const double s = integrator_.s() - y_[velocity] / rates[velocity];
-    // A velocity that was set to 0 in the same step stays so.
-    const bool in_step = s > integrator_.previous_s() && s < integrator_.s();
-    if (in_step && !mode_changed_) y_ = integrator_.Between(s);
-    // The other velocity is that of the time before or after, off by as much times the ratio of the rates.
+    // The other velocity is that of a moment earlier or later: its error is this one times the ratio of the rates.
     const double other = std::fabs(rates[velocity == kU ? kV : kU]);
     const double ratio = rates[velocity] != 0.0 ? other / std::fabs(rates[velocity]) : 0.0;
     path_.cut_off[velocity] += std::fabs(y_[velocity]) * std::max(1.0, ratio);

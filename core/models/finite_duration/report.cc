@@ -33,7 +33,7 @@ void WriteCoefficients(double coefficient, const ScaledContact& contact, const P
   impact.tangential = path.end[kNormal] > 0.0 ? path.end[kTangential] / path.end[kNormal] : 0.0;
   if (path.how == PathEnd::kHeld || contact.eta == 0.0) return;
   impact.newton = path.end[kV];
-  // Under forces that press far harder than the approach, compression may round to nothing.
+  // If forces press far harder than the approach, the impulse of compression may round to 0.
   if (path.compression[kNormal] == 0.0) return;
   impact.poisson = (path.end[kNormal] - path.compression[kNormal]) / path.compression[kNormal];
   if (!contact.damped) {
@@ -71,7 +71,7 @@ void WriteWorks(const ScaledContact& contact, const Path& path, Impact& impact) 
   impact.energy_change = unit * (by_velocity + by_force);
   impact.friction_dissipation =
       unit * (contact.IsStraight() ? 0.0 - (compression.tangential + restitution.tangential) : end[kFrictionLoss]);
-  // Without a tangential spring, a scaled stiffness of 0 would make NaN of 0.
+  // Without a tangential spring the quotient may be 0/0, which is NaN.
   const double compliance = contact.ratio_squared == 0.0 ? 0.0 : contact.ratio_squared / contact.stiffness;
   impact.spring_energy = unit * 0.5 * compliance * Square(path.spring_force);
 }

@@ -32,7 +32,7 @@ struct ImpactSolution {
 
 struct ImpactLawResult {
   std::vector<ImpactSolution> solutions;
-  // Where every mixture of two solutions is one, too: the two ends of that range, or one if it has no other end.
+  // If every mixture of two solutions is a solution, these are the ends of the range; there may be one end only.
   std::vector<ImpactSolution> ends;
 };
 

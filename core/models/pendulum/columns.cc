@@ -55,7 +55,7 @@ struct Block {
 inline constexpr uint64_t kInadmissible = 64;
 inline constexpr uint64_t kUnproved = 128;
 
-// Which problems of a block plain arithmetic has proved.
+// Says which problems of a block plain arithmetic has proved.
 enum class Proof { kNotAll, kAll, kAllReboundWithinLimits };
 
 // A verdict for each problem of a block, as lanes store it. Whole vectors are stored, which may reach beyond the block.
@@ -118,7 +118,7 @@ inline constexpr unsigned kExpensiveParts = kPartOneMinusKappa | kPartEta;
 
 HWY_INLINE VCodes::Type CodeOfRegime(Regime regime) { return VCodes::Fill(static_cast<uint64_t>(regime)); }
 
-// No problem separates.
+// Returns the verdicts of problems, none of which may be separating.
 template <typename N>
 HWY_INLINE VCodes::Type VerdictsOf(const Solution<N, Mask>& x) {
   const VCodes::Type slips = VCodes::Select(Rounded(x.mu) == VLanes::Fill(0.0), CodeOfRegime(Regime::kFrictionless),

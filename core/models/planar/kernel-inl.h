@@ -198,7 +198,7 @@ HWY_INLINE Slopes<N> SlipSlopes(const Inputs<N>& in, const MaskOf<N>& backwards)
   return {.u = AddProduct(in.wtn, f, in.wtt), .v = AddProduct(in.wnn, f, in.wtn), .f = f};
 }
 
-// The slopes where the contact sticks, if `sticks`, or slips on in the direction in which it is drawn.
+// Returns the slopes of stick where `sticks`, and else those of slip in the direction to which Wtn drives it.
 template <typename N>
 HWY_INLINE Slopes<N> SlopesAfterStop(const Inputs<N>& in, const MaskOf<N>& sticks) {
   Slopes<N> slopes = {Zero<N>(), Zero<N>(), Zero<N>()};
@@ -208,8 +208,8 @@ HWY_INLINE Slopes<N> SlopesAfterStop(const Inputs<N>& in, const MaskOf<N>& stick
   return SelectSlopes(sticks, {.u = Zero<N>(), .v = in.det * inverse, .f = -in.wtn * inverse}, slopes);
 }
 
-// A number type that also carries changes has one of its own, which is false where only the change is negative: slip
-// that slows down by the change alone stops at infinity, long after the end.
+// A number type that also carries changes has a function of its own, which is false where only the change is negative:
+// slip that slows down by the change alone stops at infinity, long after the end.
 template <typename N>
 HWY_INLINE MaskOf<N> IsNegativeItself(const N& x) {
   return IsNegative(x);
@@ -381,7 +381,7 @@ HWY_INLINE Rebound<N> FindPoisson(const Inputs<N>& in, const Path<N>& path, cons
           Select(passes, path.v_stop + path.second.v * after, v1)};
 }
 
-// On a piece v^2 grows by twice its slope times the work, and the impulse is the change of v^2 over the sum of the v.
+// On a piece v^2 changes by twice the slope of v times the work; the impulse is that change over the sum of both v.
 template <typename N>
 HWY_INLINE Rebound<N> FindEnergetic(const Inputs<N>& in, const Path<N>& path, const N& stored_twice, const N& slope,
                                     const MaskOf<N>& stop_ahead) {
@@ -506,7 +506,7 @@ HWY_INLINE void EndStuck(const MaskOf<N>& stuck, Course<N>& course) {
   course.held = Either(locked, course.jammed);
   if (InNoLane(halts)) return;
   Halt(halts, course.in, course.path, course.x);
-  // No impulse follows that this slope would move, and bounds on errors divide by it.
+  // This slope changes no impulse any more, but bounds on errors divide by it, so it must not be 0.
   course.path.second.v = Select(halts, course.in.wnn, course.path.second.v);
 }
 

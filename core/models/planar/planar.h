@@ -47,8 +47,8 @@ struct RoundingErrors {
   double velocity = 0.0;  // Each component of the velocity after, over V = max(|u0|, |v0|).
   double impulse = 0.0;   // Each impulse times its mobility, Wnn |d tau| and Wtt |d f|, over V.
   double work = 0.0;      // Each work and the change of energy, over the sum of the magnitudes of the four works.
-  // The part of `impulse` that counts beside the others: in double-double arithmetic the same over the larger of V and
-  // Wnn tau, Wtt |f|, for where W is nearly singular the impulses are large, and their last digit alone exceeds V.
+  // This is `impulse` as it counts beside the others: in double-double arithmetic it is relative to the larger of V and
+  // Wnn tau, Wtt |f|. If W is nearly singular, impulses are large, and their last digit alone exceeds V.
   double counted_impulse = 0.0;
 
   double Largest() const { return std::max({velocity, counted_impulse, work}); }

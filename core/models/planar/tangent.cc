@@ -70,7 +70,7 @@ HWY_INLINE Inputs<Dual<N>> InputsOf(Along* const* all) {
   });
 }
 
-// True where u0 Wnn - v0 Wtn is 0 and does not stay so, beyond the rounding of a direction in doubles.
+// True where u0 Wnn - v0 Wtn is 0 and changes along the direction by more than the direction's own rounding.
 template <typename N>
 HWY_INLINE auto LeavesRange(const Course<Dual<N>>& course) {
   using ricochet::HWY_NAMESPACE::Absolute;

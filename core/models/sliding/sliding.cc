@@ -45,7 +45,7 @@ double ScaleOf(const Problem<kTangential>& problem) {
 
 bool IsVelocity(double size) { return size >= kLeastVelocity && size <= kLimit; }
 
-// Whether all numbers that the frictionless impact reads are moderate.
+// Returns whether all numbers that the frictionless impact reads are moderate.
 template <size_t kTangential>
 bool IsModerateWithoutFriction(const Problem<kTangential>& problem) {
   return AreModerate(problem.Wtn(), kLimit) && AreModerate({problem.Wnn(), problem.coefficient}, kLimit) &&
@@ -71,7 +71,7 @@ Vector<kTangential> Sum(const Vector<kTangential>& x, const Vector<kTangential>&
   return sum;
 }
 
-// x + slope * tau, where adding 0.0 turns -0 into 0.
+// Returns x + slope * tau; adding 0.0 turns -0 into 0.
 template <size_t kTangential>
 Vector<kTangential> Advanced(const Vector<kTangential>& x, const Vector<kTangential>& slope, double tau) {
   Vector<kTangential> moved;
@@ -121,7 +121,7 @@ Impact<kTangential> MakeImpact(const Problem<kTangential>& problem, const Vector
   return impact;
 }
 
-// Roundings of the direction of slip, in a component of W along it. The direction is exact in a plane.
+// Counts the roundings of the direction of slip in a component of W along it; in a plane the direction is exact.
 template <size_t kTangential>
 constexpr double kDirectionErrors = kTangential == 1 ? 0.0 : 6.0;
 

@@ -236,7 +236,7 @@ void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
   const T error = sum_.friction + sum_.slip_rounding;
   settles_ = error == T{0} ? T{0} : margin > T{0} ? error / (problem_.smallest_root * margin) : kInfinity<T>;
   locks_ = problem_.Locks(sticking);
-  // The contact is held by what u has lost, so that the friction impulse has the rounding of u.
+  // The friction impulse that stops slip follows from the u that is lost, and so has the rounding of u.
   const T root = problem_.smallest_root;
   if (error > T{0}) f_rounding_ += (sum_.slip_rounding + u_rounding_ / root) / root;
   if (locks_) return ForgetSlip();
@@ -260,7 +260,7 @@ void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes
   at.tau_compression = compression_.impulse + kSafetyOfImpulses * std::fabs(known_compression_.impulse) +
                        T{2} * kEpsilon<T> * path.state.tau;
   at.f = ErrorOfF(path) + FrictionRatio(path) * at.tau_compression;
-  // The work is the sum of v, whose errors may be larger on the way than they are at the end.
+  // The work is the integral of v, whose errors may be larger on the way than they are at the end.
   at.normal_compression = compression_.work + kSafetyOfImpulses * std::fabs(known_compression_.work) +
                           v_error * (at.tau_compression + kOfParts * path.state.tau);
   at.energy = ErrorOfEnergy(path.state, at.f, at.tau_compression,
@@ -328,11 +328,11 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
   // Restitution that has to give back work ends with v > 0, if the work of compression is known at all.
   const bool lost_work =
       problem_.coefficient > T{0} && path.goal.quantity == Quantity::kWork && !path.Sticks() && !(path.state.v > T{0});
-  // Where friction locks the contact, slip and v vanish together, so that every path to it comes near to its goal.
+  // If friction locks the contact, slip and v vanish together, so that every path to the lock comes near to its goal.
   const bool in_doubt = in_doubt_ && path.regime != Regime::kLocked;
   if (in_doubt || lost_work) return unknown;
   const Matrix<T>& w = problem_.w;
-  // Poisson's impulse may have been spent at a v whose sign is in doubt.
+  // Poisson's impulse may have been used up at a v of uncertain sign.
   const bool v_is_turned = problem_.law == RestitutionLaw::kPoisson && path.goal.quantity == Quantity::kVelocity;
   const T v_found =
       v_is_turned ? std::fabs(compression_end_v_) + kSafety * std::fabs(sum_.known.NormalVelocity(w)) : T{0};
@@ -394,7 +394,7 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
     errors.tau = std::max(errors.tau, errors.tau_compression + path.state.tau);
   }
   errors.f = ErrorOfF(path) + FrictionRatio(path) * errors.tau;
-  // Restitution that ends with a certain work errs by what that work does, and by root finding.
+  // Restitution that ends at a stated work has the error of that work and of root finding.
   const T stated = problem_.coefficient * problem_.coefficient * errors.normal_compression +
                    std::fabs(path.state.v) * event_distance_ + WorkRounding(path);
   const T followed = GoalError(path, Quantity::kWork) + v_error_of_state * (path.state.tau + all) +

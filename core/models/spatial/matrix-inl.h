@@ -92,8 +92,8 @@ struct Matrix {
   Matrix() = default;
   Matrix(double e11, double e12, double e13, double e22, double e23, double e33, int rank_of_all)
       : w11(e11), w12(e12), w13(e13), w22(e22), w23(e23), w33(e33), rank(rank_of_all) {
-    // Where W is singular, so is Wtt or it leaves v nothing of its own. What tells them apart has the rounding of a sum
-    // of products.
+    // If W is singular, either Wtt is singular, or v has no direction of its own beside u. What tells these two apart
+    // has the rounding of a sum of products.
     const double noise = rank < 3 ? 16.0 * kRankTolerance : kRankTolerance;
     const PlanarDelassus tangent = {.tt = e11, .tn = e12, .nn = e22};
     tangent_is_singular = TangentDeterminant() <= T{0} || tangent.RelativeDeterminant() <= noise;

@@ -37,7 +37,7 @@ void StateCoefficient(const ScaledProblem<T>& problem, const Path<T>& path, Impa
   switch (problem.law) {
     case RestitutionLaw::kNewton:
       impact.newton = coefficient;
-      // v ends as the law states it, of which a path on which v was larger keeps only its rounding.
+      // The law states v at the end exactly; a path on which v was larger knows it only to rounding.
       if (path.in_restitution && path.IsRounding(path.state.v - path.goal.target)) {
         impact.v1 = problem.NormalVelocity(path.goal.target);
       }
@@ -147,9 +147,10 @@ Impact MakeImpact(const ScaledProblem<T>& problem, const Path<T>& path, const En
   impact.energy_change = problem.FrictionWork(friction_change) + problem.NormalWork(normal_change);
   impact.newton = internal::Share(-end.v, problem.v);
   impact.poisson = internal::Share(end.tau, compression.tau);
-  impact.energetic = std::sqrt(std::max(0.0, internal::Share(-restitution_work, compression_work)));
-  impact.energetic_excess =
-      internal::Share(-(restitution_work + compression_work), compression_work) / (1.0 + impact.energetic);
+  const double returned = internal::Share(-restitution_work, compression_work);
+  const double surplus = internal::Share(-(restitution_work + compression_work), compression_work);
+  impact.energetic = std::sqrt(std::max(0.0, returned));
+  impact.energetic_excess = std::max(-1.0, surplus / (1.0 + impact.energetic));
   // A path without an end has no coefficients of restitution.
   if (!path.ended) {
     impact.newton = impact.poisson = impact.energetic = 0.0;

@@ -68,7 +68,7 @@ class Solver {
 
  private:
   static constexpr int64_t kStepBudget = 10000;
-  // The share of the tolerance for leaving a curve for its asymptote.
+  // This share of the tolerance is left for replacing a curve by its asymptote.
   static constexpr double kSwitchShare = 0.2;
 
   bool SlipKeepsItsDirection() const;
@@ -136,8 +136,8 @@ bool Solver<T>::SlipKeepsItsDirection() const {
   return problem_.grazes || std::fabs(problem_.FrameAt(Normalized(state_.u1, state_.u2)).Turn()) <= kInvariant;
 }
 
-// Follows slip where Wtt is singular and its direction d is the only one that slip can have. Only rounding has put a
-// part of the slip beside it; taken for a direction, it could be any where the contact rolls.
+// Follows slip where Wtt is singular, so that slip can only have its direction d. A part of slip beside d is rounding
+// alone; where the contact rolls, that part would have an arbitrary direction.
 template <typename T>
 void Solver<T>::SlideAlongTangent() {
   const Direction<T> d = problem_.w.TangentDirection();

@@ -183,8 +183,8 @@ HWY_INLINE StepError<T> Step<T>::ErrorAt(T xi, const State<T>& end, const Direct
   return error;
 }
 
-// A lack in tau counts, too: at equal tau the friction impulse and its work lack less, as both would have gone on
-// meanwhile. The change of energy is u.df, and the normal work is that less the work of friction.
+// The error of tau counts, too: at equal tau the friction impulse and its work lack less, because both grow over the
+// missing tau. The change of energy is u.df, and the normal work is that less the work of friction.
 template <typename T>
 HWY_INLINE PathError<T> Step<T>::ErrorOf(const SeriesTerm<T>& term, const State<T>& end, const Direction<T>& e) const {
   const T unit = contact_.mu * slip_ / contact_.rate;

@@ -74,8 +74,8 @@ void Follow(Progress<T>& impact, const StraightPiece<T>& piece) {
   }
 }
 
-// Slip whose growth is no more than rounding stands still where friction and the joints would lock the body: friction
-// needs all of its cone to hold it then, and v stands still with slip.
+// If friction and the joints would lock the body, slip whose growth is at most rounding counts as standing still:
+// friction then needs all of its cone to hold it, and v stands still, too.
 template <typename T>
 constexpr T kStandingGrowth = T{16} * kEpsilon<T>;
 

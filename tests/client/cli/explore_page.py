@@ -459,7 +459,7 @@ class ExplorePageTest(unittest.TestCase):
     def test_a_field_without_a_number_is_marked_and_has_no_verdict(self):
         for scene, field, label in (("pendulum", "pendulum.a_m", "a, tip beside pin"),
                                     ("box_on_two_feet", "contacts[1].friction", "contact 2: friction μ")):
-            for typed in ("", "1e", "-", "--1"):
+            for typed in ("", "1e", "-", "--1", "0,5", "0x10", "1e400", "1e-400"):
                 self.open(scene)
                 self.browser.script(f"inputs['{field}'].number.focus(); inputs['{field}'].number.select()")
                 for letter in typed or ["\b"]:
@@ -482,6 +482,41 @@ class ExplorePageTest(unittest.TestCase):
                              ["0.5", 0])
             self.assertTrue(self.text("#state").startswith("✓"))
         self.assertEqual(self.browser.console(), [])
+
+    def test_an_address_of_several_contacts_is_that_of_a_box(self):
+        box = self.browser.script("return start.scenes.box_on_two_feet")
+        two = {"bodies": box["free_bodies"]["bodies"] * 2}
+        for scene in ({**box, "free_bodies": two}, {**box, "contacts": box["contacts"][:1]},
+                      {"contacts": box["contacts"], "mechanism": {"mass_matrix": [1], "rates": [1]}}):
+            self.browser.script(f"scene = {json.dumps(scene)}; location.hash = toHash()")
+            self.settle()
+            self.assertTrue(self.text("#about").startswith("The address holds no scene"), self.text("#about"))
+        self.assertEqual(self.browser.console(), [])
+
+    def test_the_last_change_is_kept_when_another_scene_is_opened_at_once(self):
+        self.open("planar_body")
+        self.browser.script("change('planar_body.mass_kg', 7);"
+                            "document.querySelector('[data-at=linkage]').click()")
+        self.assertEqual(self.browser.script("return document.activeElement.dataset.at"), "linkage")
+        self.settle()
+        self.browser.script("history.back()")
+        self.settle()
+        self.assertEqual(self.browser.script("return scene.planar_body?.mass_kg"), 7)
+
+    def test_copied_is_said_of_the_text_that_was_copied(self):
+        self.open("pendulum")
+        self.browser.script("$('copy').click()")
+        self.settle()
+        self.assertNotEqual(self.text("#copy-state"), "")
+        self.browser.script("change('pendulum.a_m', 0.4)")
+        self.settle()
+        self.assertEqual(self.text("#copy-state"), "")
+
+    def test_pictures_say_their_numbers_to_screen_readers(self):
+        self.open("pendulum")
+        energy, strip = (self.browser.script(f"return $('{name}').ariaLabel") for name in ("energy", "strip"))
+        self.assertRegex(energy, r"^Energy: normal, compression .* J; .*change of energy .* J$")
+        self.assertRegex(strip, r"^The regimes over friction: .* from .*")
 
     def test_nothing_of_an_earlier_scene_is_left(self):
         def show(fields):

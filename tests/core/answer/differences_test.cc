@@ -435,7 +435,7 @@ TEST(DifferencesTest, TangentialSpringHasTheQuotientsOfArbitraryPrecision) {
       }
       return ((high.tau1 - low.tau1) / (Ball(above) - Ball(below))).Nearest();
     };
-    // How far two of them differ tells what the smaller is right to.
+    // The difference of two quotients tells how accurate the one with the smaller step is.
     const std::optional<double> exact = quotient(0x1p-24), other = quotient(0x1p-23);
     if (!exact.has_value() || !other.has_value()) continue;
     const Derivative d = Only(scene, kTau, kMu);

@@ -44,7 +44,7 @@ struct Slip {
   // While it slips, u - (mu w_tt - w_tn) tau and -1 + (w_nn - mu w_tn) tau are the velocities at the normal impulse
   // tau. The friction at which slip stops where tau is `times` that of compression:
   double FrictionThatStops(double times) const { return (u * w_nn + times * w_tn) / (times * w_tt + u * w_tn); }
-  // And the slip for which it does:
+  // Returns the slip for which it does.
   double SlipThatStops(double times) const { return times * (mu * w_tt - w_tn) / (w_nn - mu * w_tn); }
 };
 
@@ -109,6 +109,22 @@ TEST(NearThresholds, OfASlidingContactAreThoseOfTheClosedForm) {
   }
   EXPECT_GT(compression_ends, 100);
   EXPECT_GT(friction_limits, 10);
+}
+
+// Slip starts from rest towards -t while Wtn < -mu Wtt, sticks up to mu Wtt, and starts towards +t beyond.
+TEST(NearThresholds, SlipThatStartsTheOtherWayIsAnotherCourse) {
+  constexpr double kWtt = 1.1747700075286178, kWtn = -0.8451400197890777, kMu = 0.06822621901620496;
+  const Scene scene = {.system = PlanarContact{.w_tt_per_kg = kWtt,
+                                               .w_tn_per_kg = kWtn,
+                                               .w_nn_per_kg = 0.7373908900631734,
+                                               .normal_m_s = -0.5073852644091676},
+                       .friction = {.kinetic_coefficient = kMu},
+                       .restitution = NewtonCoefficient{0.0}};
+  const std::vector<Derivative> found = DerivativesOf(scene, {"planar_contact.w_tn_per_kg"});
+  ASSERT_EQ(found.size(), 1U);
+  ASSERT_TRUE(found[0].above.has_value());
+  EXPECT_EQ(found[0].above->threshold, Threshold::kFrictionLimit);
+  EXPECT_NEAR(found[0].above->distance, -kWtn - kMu * kWtt, 1e-12);
 }
 
 TEST(NearThresholds, HaveTheirNames) {

@@ -224,7 +224,7 @@ void ExpectContainment(const Scene& scene, const std::vector<FieldRange>& ranges
 
 class EveryPlanarSystem : public testing::TestWithParam<const char*> {
  protected:
-  // How many; a chain takes longest.
+  // Returns the number of scenes, which is smaller for chains, because these take longest.
   int Scenes() const { return std::string(GetParam()).starts_with("chain") ? 8 : 25; }
 };
 INSTANTIATE_TEST_SUITE_P(SceneEnclosureTest, EveryPlanarSystem,

@@ -63,7 +63,7 @@ Mechanism MechanismOf(const SpatialBody& body) {
 
 Outcome Solve(const System& system) { return LocalSolver().Solve({.scene = With(system)})->outcome; }
 
-// Both outcomes to `tolerance` of the largest velocity and impulse.
+// Expects that both outcomes agree to `tolerance` of the largest velocity and impulse.
 void ExpectSameImpact(const Outcome& mechanism, const Outcome& system, double tolerance) {
   EXPECT_EQ(mechanism.regime, system.regime);
   EXPECT_NEAR(mechanism.contact_velocity_after.normal_m_s, system.contact_velocity_after.normal_m_s, tolerance);
@@ -78,7 +78,7 @@ TEST(MechanismTest, IsTheSameChainAsALinkage) {
   for (size_t links = 1; links <= 64; ++links) {
     SCOPED_TRACE(links);
     Linkage chain = Chain(links);
-    // All other chains approach, too.
+    // These rates let all other chains approach, too.
     for (Link& link : chain.links) link.rate_rad_s = -1.0 - 0.01 * static_cast<double>(links);
     const Outcome outcome = Solve(MechanismOf(chain));
     const Outcome linkage = Solve(chain);

@@ -199,7 +199,6 @@ TEST(CostTest, AStiffnessThatChangesNoImpulseIsTriedOnce) {
 }
 
 TEST(CostTest, ASpringGivesFiniteForcesTimeAndAStifferOneLess) {
-  if (!finite_duration::IsAvailable()) GTEST_SKIP() << "the component finite_duration is left out";
   const Study study = StudyOf(SpringAndMoment());
   const double soft = study["duration k=1000 1e-09"].achieved->modelling;
   const double rigid = study["closed form, compensated"].achieved->modelling;
@@ -273,7 +272,9 @@ TEST(CostTest, ThePlanPicksCompensatedArithmeticAtZeroAndPlainFarAbove) {
 }
 
 TEST(CostTest, AMethodWithoutTimeStaysInTheReportAndSaysSo) {
-  Scene scene = SpringAndMoment();
+  Scene scene = PaperScene();
+  scene.restitution = std::monostate();
+  scene.compliance = Compliance{.tangential_ratio_squared = std::nullopt, .normal = HuntCrossleySpring{1e5, 2.2, 0.1}};
   const Study study = StudyOf({.scene = scene, .time_limit_s = kLeastCostTimeLimitS});
   EXPECT_EQ(study.rows.size(), StudyOf(scene).rows.size());
   EXPECT_GT(study.summary.out_of_time, 0);

@@ -11,17 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "core/models/finite_duration/finite_duration.h"
 #include "ricochet/engine_info.h"
 
 namespace ricochet {
 namespace {
 
-// The kinds that compute nothing: an unset model or system, and a model that is not built.
-bool ComputesNothing(const std::string& kind) {
-  if (kind == "model 9" || kind == "powers") return !finite_duration::IsAvailable();
-  return kind == "model 0" || kind == "system 0";
-}
+// An unset model or system computes nothing.
+bool ComputesNothing(const std::string& kind) { return kind == "model 0" || kind == "system 0"; }
 
 TEST(FingerprintTest, EveryModelAndSystemIsProbed) {
   for (const Probe& probe : ProbeEngine()) EXPECT_EQ(probe.bits.empty(), ComputesNothing(probe.kind)) << probe.kind;

@@ -344,7 +344,7 @@ std::vector<Note> NotesOf(const Scene& scene, const DemandFields& demand = {}) {
   return response->outcome.notes;
 }
 
-// No verdict of a coarse plan that the whole impact refutes lacks the note.
+// If the whole impact refutes the verdict of a coarse plan, that verdict must have had the note.
 TEST(VerdictNoteTest, StandsWhereverAnAdmissibleOutcomeIsNone) {
   RandomScenes random(5);
   const auto solve = [](const Scene& scene, double tolerance) {

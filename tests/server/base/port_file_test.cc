@@ -23,7 +23,7 @@ TEST(PortFile, ReplacesTheOldOneAndLeavesNothingElse) {
   std::filesystem::remove_all(directory);
 }
 
-// Who has the old file open goes on to read it whole: the new one is another, which takes its name when it is complete.
+// A reader of the old file reads it to its end: the new one is another file, which takes the name once it is complete.
 TEST(PortFile, IsNeverSeenHalfWritten) {
   const std::filesystem::path directory = testing::TempDir() + "ricochetd_port_whole";
   std::filesystem::remove_all(directory);

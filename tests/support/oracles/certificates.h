@@ -32,14 +32,14 @@ inline std::string DecimalAt(const Certificate& certificate, const std::string& 
 // A decimal, to far more than its digits.
 inline Ball Digits(const std::string& decimal) { return Ball::Parse(decimal, kTestBits); }
 
-// Whether two decimals differ by less than 10^-digits of the first, or are both 0.
+// Returns whether two decimals differ by less than 10^-digits of the first, or are both 0.
 inline bool Agree(const std::string& x, const std::string& y, int digits) {
   Ball allowed = Abs(Digits(x));
   for (int i = 0; i < digits; ++i) allowed = allowed / Ball(10.0, kTestBits);
   return Abs(Digits(x) - Digits(y)) <= allowed;
 }
 
-// Whether a range or a decimal of `set` holds the decimal.
+// Returns whether a range or a decimal of `set` holds the decimal.
 inline bool Holds(const CertifiedNumber& set, const std::string& decimal) {
   if (!set.decimal.empty()) return Agree(set.decimal, decimal, 15);
   const bool above = set.lower == "-inf" || Digits(set.lower) <= Digits(decimal);

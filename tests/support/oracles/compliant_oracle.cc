@@ -44,7 +44,7 @@ class FirstRoot {
     slope_ = SlopeOf(p_);
   }
 
-  // Where p, positive at first, turns negative.
+  // Returns where p, positive at first, turns negative.
   std::optional<Ball> Find() const {
     if (p_.empty()) return std::nullopt;
     if (p_[0] < Ball(0.0)) return Ball(0.0, bits_);
@@ -262,7 +262,7 @@ class Simulation {
       side_ = -side_;
       return;
     }
-    // On the line before; a change of line leaves S as it is where v = 0, and makes it positive where n = n_max.
+    // This uses the line before: a change of line keeps S where v = 0, and makes it positive where n = n_max.
     if (!event.line_ends) u_ = Middle(-(side_ * mu_ * r2_ * Kn() * v_));
     Settle();
   }

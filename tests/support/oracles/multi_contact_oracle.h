@@ -22,8 +22,8 @@ struct ExactOutcome {
   std::vector<double> compression, restitution, friction;  // Works of each contact.
 };
 
-// All outcomes of orders; nothing if they take more than `budget` impacts. A sequence ends where all speeds of approach
-// are below 1e-25.
+// Returns all outcomes of orders, or nothing if they take more than `budget` impacts. A sequence ends where all speeds
+// of approach are below 1e-25.
 std::optional<std::vector<ExactOutcome>> OrdersExactly(const Problem& problem, int budget);
 
 // The outcome of springs; nothing if they take more than `budget` events, or no mode fits.

@@ -85,7 +85,7 @@ class Simulation {
     return Ball(-direction) * mu_;
   }
 
-  // Whether restitution can end although v stands still, as it does where W has rank one and the contact sticks.
+  // Returns whether restitution can end although v stands still, as it does if W has rank one and the contact sticks.
   bool EndsAtRest() const { return problem_.law != RestitutionLaw::kNewton || Compare(-coefficient_ * v0_, v_) <= 0; }
 
   // The normal impulse up to the end of restitution if v goes on with slope `rise`.

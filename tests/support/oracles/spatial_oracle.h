@@ -26,8 +26,8 @@ struct ExactImpact {
   Ball newton, poisson, energetic, tangential;
 };
 
-// Nothing if slip stops, or comes so near to it that the series take too many steps. The problem must approach, slip
-// and have friction.
+// Returns nothing if slip stops, or comes so near to a stop that the series take too many steps. The problem must
+// approach, slip and have friction.
 std::optional<ExactImpact> SolveExactly(const Problem& problem);
 
 // A contact that is no double, in place of that of a problem: W is 11, 12, 13, 22, 23, 33.

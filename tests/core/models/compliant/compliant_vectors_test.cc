@@ -44,7 +44,7 @@ std::string ModesOf(const Impact& impact) {
   return modes;
 }
 
-// Over max(|u0|, |v0|).
+// Returns the largest error of a velocity over max(|u0|, |v0|).
 double VelocityError(const VectorRow& row, const Problem& problem, const Impact& impact) {
   return std::max(std::fabs(impact.u1 - Number(row, "u1")), std::fabs(impact.v1 - Number(row, "v1"))) /
          std::max(std::fabs(problem.contact.u0), std::fabs(problem.contact.v0));
@@ -57,7 +57,7 @@ double ImpulseError(const VectorRow& row, const Impact& impact) {
          Number(row, "tau1");
 }
 
-// Over the largest work.
+// Returns the largest error of a work over the largest work.
 double WorkError(const VectorRow& row, const Impact& impact) {
   const double compression = Number(row, "work_n_compression");
   const double restitution = Number(row, "work_n_restitution");

@@ -11,7 +11,8 @@ namespace {
 
 class FiniteDurationClaimsTest : public testing::TestWithParam<double> {};
 
-// What a path without forces, damping and a spring along t lacks follows from the path itself.
+// What a path without forces, damping and a spring along t lacks follows from the path itself. At 1e-12 little but
+// rounding is left.
 TEST_P(FiniteDurationClaimsTest, WithoutForcesTheToleranceIsMetAndLittleMoreIsClaimed) {
   for (const ClaimKind kind : {ClaimKind::kLinear, ClaimKind::kHertz}) {
     for (const bool hard : {false, true}) {
@@ -19,7 +20,7 @@ TEST_P(FiniteDurationClaimsTest, WithoutForcesTheToleranceIsMetAndLittleMoreIsCl
       PrintClaims(kind == ClaimKind::kHertz ? "duration, Hertz" : "duration, linear", hard ? "hard" : "typical", tally);
       EXPECT_EQ(tally.broken(), 0) << tally.first_broken();
       EXPECT_EQ(tally.claimed_above_tolerance(), 0);
-      EXPECT_LE(tally.MedianRatio(), 3.0);
+      EXPECT_LE(tally.MedianRatio(), GetParam() > 1e-12 ? 1.6 : 6.0);
     }
   }
 }
