@@ -29,7 +29,7 @@ namespace {
 
 constexpr char kExample[] = R"(Example: the elastic pendulum of Lubarda (2009), sec. 4, in a second.
   $ ricochet cost --a 0.3 --b 1 --mu 0.1 --energetic 1 --time-limit 1s
-21 methods for one impact. The exact answer: certified to 100 digits.
+13 methods for one impact. The exact answer: certified to 100 digits.
   ...
 Every method that can compute the impact is timed and held against the exact answer, on the machine that answers: this
 one, or that of --server. Times differ from run to run. docs/cli.md explains the columns.

@@ -52,6 +52,7 @@ void AddHealth(CLI::App& app, Command& command) {
   const auto [sub, options] =
       AddCommand<HealthOptions>(app, "health", "Ask whether a server takes calls", kExample, RunHealth, command);
   AddConnectionOptions(*sub, options->common.connection);
+  sub->get_option("--server")->description("Ask the ricochetd at this address, or the first that answers; needed");
   sub->add_option("--service", options->service, "Full name of the service; empty for the server as a whole")
       ->type_name("NAME");
 }

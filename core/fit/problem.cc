@@ -25,27 +25,10 @@ namespace {
 constexpr double kLeastSigma = 1e-150, kMostSigma = 1e150;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The range in which a number keeps its rule.
-std::pair<double, double> RangeOf(NumberRule rule) {
-  switch (rule) {
-    case NumberRule::kPositive:
-    case NumberRule::kNotNegative:
-      return {0.0, kInfinity};
-    case NumberRule::kUnitInterval:
-      return {0.0, 1.0};
-    case NumberRule::kPlusMinusOne:
-      return {-1.0, 1.0};
-    case NumberRule::kOneToFour:
-      return {1.0, 4.0};
-    case NumberRule::kHalfTurn:
-      return {0.0, std::numbers::pi};
-    case NumberRule::kRatioSquared:
-      return {kLeastTangentialRatioSquared, kMostTangentialRatioSquared};
-    case NumberRule::kFinite:
-    case NumberRule::kAngle:
-      break;
-  }
-  return {-kInfinity, kInfinity};
+// The range in which a number keeps its rule, with an infinite end where only the largest double bounds it.
+std::pair<double, double> BoundsBy(NumberRule rule) {
+  const auto [least, most, is_open, words] = RangeOf(rule);
+  return {least == -kLargestNumber ? -kInfinity : least, most == kLargestNumber ? kInfinity : most};
 }
 
 class Door {
@@ -116,7 +99,7 @@ class Door {
     Scene scene = request_.scene;
     const std::optional<double> own = NumberAt(scene, unknown.path);
     const NumberRule rule = ResolveField(unknown.path, scene)->rule();
-    const auto [least, most] = RangeOf(rule);
+    const auto [least, most] = BoundsBy(rule);
     const std::string range = absl::StrCat("be in [", ShortestDecimal(least), ", ", ShortestDecimal(most), "]");
     for (const auto& [bound, value] : {std::pair(".low", unknown.low), std::pair(".high", unknown.high)}) {
       if (value.has_value() && !(*value >= least && *value <= most)) RefuseNumber(name + bound, *value, range);
@@ -263,7 +246,7 @@ class Door {
     Scene scene = problem_.batch.scene;
     for (size_t i = 0; i < problem_.batch.fields.size(); ++i) {
       const NumberRule rule = ResolveField(problem_.batch.fields[i], scene)->rule();
-      if (i >= problem_.unknowns()) problem_.input_ranges.push_back(RangeOf(rule));
+      if (i >= problem_.unknowns()) problem_.input_ranges.push_back(BoundsBy(rule));
     }
     const char* const part = WhyNotExact(scene);
     problem_.is_slow = TangentialDirections(scene.system) > 1 || TakesTime(scene) ||

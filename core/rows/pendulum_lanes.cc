@@ -1,14 +1,26 @@
-#include "core/rows/pendulum_lanes.h"
+// PendulumLanes: pendulums over a surface at rest, each by the closed form in SIMD lanes or to first order.
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "absl/container/inlined_vector.h"
+#include "absl/types/span.h"
 #include "core/answer/model_outcomes.h"
+#include "core/models/pendulum/columns.h"
 #include "core/models/pendulum/first_order.h"
+#include "core/models/pendulum/pendulum.h"
 #include "core/numerics/moderate.h"
 #include "core/plan/choose.h"
+#include "core/plan/demand.h"
 #include "core/plan/pendulum_models.h"
 #include "core/plan/scene_problem.h"
+#include "core/rows/scene_lanes.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 namespace {
@@ -31,20 +43,44 @@ Answer AnswerBy(Model model) {
   return model == Model::kPendulum || model == Model::kNone ? Answer::kClosedForm : Answer::kFirstOrder;
 }
 
-}  // namespace
+class PendulumLanes : public SceneLanes {
+ public:
+  PendulumLanes(const Scene& scene, const Demand& demand);
+  // Returns false if the closed form does not give every column.
+  bool SetColumns(absl::Span<const std::string> paths);
 
-std::unique_ptr<SceneLanes> PendulumLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
-                                                const Demand& demand) {
-  if (!HasClosedForm(scene) || scene.compliance.has_value()) return nullptr;
-  std::unique_ptr<PendulumLanes> lanes(new PendulumLanes(scene, demand));
-  if (!lanes->SetColumns(columns)) return nullptr;
-  return lanes;
-}
+  // Coefficients that depend on the speed are no fields.
+  bool TakesFields() const override { return takes_fields_; }
+  Numbers NumbersOf(const Scene& scene) const override;
+  void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) override;
+
+ private:
+  static constexpr size_t kNumberCount = pendulum::ProblemColumns::kNumbers;
+
+  void SetProblems(const Columns& columns, size_t count);
+  Model Plan(size_t i);
+  bool PlanAll(size_t count, Block& block);
+  bool SolveByClosedForm(size_t first, size_t count, Block& block);
+  void SolveToFirstOrder(size_t first, size_t count, Block& block) const;
+  bool SolveRuns(size_t count, Block& block);
+
+  const Demand demand_;
+  const bool takes_fields_;
+  pendulum::ProblemColumns problems_;
+  std::array<std::optional<double>, kNumberCount> held_;  // The number that all problems have, where that is known.
+
+  std::vector<pendulum::Output> outputs_;         // The kernel computes these, each once.
+  std::vector<std::optional<size_t>> column_of_;  // The column of each output; unset for an output that is no column.
+  std::vector<double*> places_;                   // The places of the outputs in the current block.
+  std::optional<size_t> dissipation_;             // The column of minus the work of friction.
+  std::optional<size_t> spring_;                  // The column of the tangential spring energy, which is 0 here.
+  size_t friction_ = 0;                           // Which output the work of friction is, if it is needed.
+  std::array<double, kBlock> friction_work_;      // Its place if it is no column.
+};
 
 PendulumLanes::PendulumLanes(const Scene& scene, const Demand& demand)
     : demand_(demand), takes_fields_(IsPlain(scene)), problems_(pendulum::MakeProblem(scene).law, kBlock) {}
 
-// Returns false if the closed form does not give every column.
 bool PendulumLanes::SetColumns(absl::Span<const std::string> paths) {
   for (size_t c = 0; c < paths.size(); ++c) {
     if (paths[c] == "work.friction_dissipation_j") {
@@ -167,6 +203,16 @@ void PendulumLanes::Solve(const Columns& columns, size_t count, absl::Span<doubl
     std::transform(work, work + count, places[*dissipation_], [](double lost) { return 0.0 - lost; });
   }
   if (spring_.has_value()) std::fill_n(places[*spring_], count, 0.0);
+}
+
+}  // namespace
+
+std::unique_ptr<SceneLanes> MakePendulumLanes(const Scene& scene, absl::Span<const std::string> columns,
+                                              const Demand& demand) {
+  if (!HasClosedForm(scene) || scene.compliance.has_value()) return nullptr;
+  auto lanes = std::make_unique<PendulumLanes>(scene, demand);
+  if (!lanes->SetColumns(columns)) return nullptr;
+  return lanes;
 }
 
 }  // namespace ricochet

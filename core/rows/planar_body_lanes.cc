@@ -1,13 +1,22 @@
-#include "core/rows/planar_body_lanes.h"
+// PlanarBodyLanes: scenes of one body or of two in a plane, each reduced to its contact, whose impact PlanarLanes
+// solve.
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <limits>
+#include <memory>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/types/span.h"
 #include "core/contact/planar_body_share.h"
-#include "core/rows/planar_lanes.h"
+#include "core/plan/demand.h"
+#include "core/rows/scene_lanes.h"
 #include "core/scene/numbers.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 namespace {
@@ -34,24 +43,48 @@ PlanarBody BodyAt(const SceneLanes::Columns& columns, size_t body, size_t i) {
   return one;
 }
 
-}  // namespace
+class PlanarBodyLanes : public SceneLanes {
+ public:
+  explicit PlanarBodyLanes(size_t bodies) : bodies_(bodies) {}
+  // Returns false if lanes of the contact do not give every column that is not a velocity of a body.
+  bool SetColumns(const Scene& scene, absl::Span<const std::string> columns, const Demand& demand);
 
-std::unique_ptr<SceneLanes> PlanarBodyLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
-                                                  const Demand& demand) {
-  const size_t bodies = BodiesOf(scene).size();
-  if (bodies == 0 || !IsPlain(scene)) return nullptr;
-  std::unique_ptr<PlanarBodyLanes> lanes(new PlanarBodyLanes(bodies));
-  lanes->SetColumns(columns);
-  Scene contact = scene;
-  contact.system = PlanarContact();
-  lanes->contact_lanes_ = PlanarLanes::Make(contact, lanes->contact_paths_, demand);
-  if (lanes->contact_lanes_ == nullptr) return nullptr;
-  return lanes;
-}
+  void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) override;
 
-PlanarBodyLanes::PlanarBodyLanes(size_t bodies) : bodies_(bodies) {}
+ private:
+  using Column = std::array<double, kBlock>;
 
-void PlanarBodyLanes::SetColumns(absl::Span<const std::string> columns) {
+  // A column of the answer that is a velocity of a body after the impact.
+  struct AfterColumn {
+    size_t column;
+    size_t body;
+    size_t component;  // 0 along t, 1 along n, 2 the rate.
+  };
+  struct ContactColumns {
+    Column wtt, wtn, wnn, u0, v0;
+  };
+
+  size_t ContactColumn(const char* path);
+  void Reduce(const Columns& columns, size_t count);
+  Columns ContactOf(const Columns& columns) const;
+  void SetAfter(const AfterColumn& after, const Columns& columns, size_t count, double* to) const;
+
+  size_t bodies_;
+  std::unique_ptr<SceneLanes> contact_lanes_;
+  ContactColumns contact_ = {};
+
+  // The columns that the lanes of the contact give, with the place of each in the answer; kOwn for one that is not in
+  // it.
+  static constexpr size_t kOwn = static_cast<size_t>(-1);
+  std::vector<std::string> contact_paths_;
+  std::vector<size_t> column_of_;
+  std::vector<AfterColumn> after_;
+  size_t tangential_impulse_ = kOwn, normal_impulse_ = kOwn;  // Their numbers among contact_paths_.
+  std::array<Column, 2> own_ = {};
+  std::vector<double*> contact_places_;
+};
+
+bool PlanarBodyLanes::SetColumns(const Scene& scene, absl::Span<const std::string> columns, const Demand& demand) {
   for (size_t c = 0; c < columns.size(); ++c) {
     const size_t known = after_.size();
     for (size_t body = 0; body < bodies_; ++body) {
@@ -68,6 +101,10 @@ void PlanarBodyLanes::SetColumns(absl::Span<const std::string> columns) {
     normal_impulse_ = ContactColumn("impulse.normal_total_n_s");
   }
   contact_places_.resize(contact_paths_.size());
+  Scene contact = scene;
+  contact.system = PlanarContact();
+  contact_lanes_ = MakePlanarLanes(contact, contact_paths_, demand);
+  return contact_lanes_ != nullptr;
 }
 
 // Returns the number of a column among those of the contact, to which it is added unless it is there.
@@ -109,7 +146,7 @@ SceneLanes::Columns PlanarBodyLanes::ContactOf(const Columns& columns) const {
     contact.of[n] = number->data();
     contact.varies[n++] = true;
   }
-  for (size_t from = bodies_ * kNumbersOf<PlanarBody>; n < PlanarLanes::kNumberCount; ++n, ++from) {
+  for (size_t from = bodies_ * kNumbersOf<PlanarBody>; n < kNumbersOf<PlanarContact> + 3; ++n, ++from) {
     contact.of[n] = columns.of[from];
     contact.varies[n] = columns.varies[from];
   }
@@ -142,6 +179,17 @@ void PlanarBodyLanes::Solve(const Columns& columns, size_t count, absl::Span<dou
     SetAfter(after, columns, count, places[after.column]);
     block.is_complete = block.is_complete && AreFinite(places.subspan(after.column, 1), 0, count);
   }
+}
+
+}  // namespace
+
+std::unique_ptr<SceneLanes> MakePlanarBodyLanes(const Scene& scene, absl::Span<const std::string> columns,
+                                                const Demand& demand) {
+  const size_t bodies = BodiesOf(scene).size();
+  if (bodies == 0 || !IsPlain(scene)) return nullptr;
+  auto lanes = std::make_unique<PlanarBodyLanes>(bodies);
+  if (!lanes->SetColumns(scene, columns, demand)) return nullptr;
+  return lanes;
 }
 
 }  // namespace ricochet

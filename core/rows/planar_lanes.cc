@@ -1,19 +1,29 @@
-#include "core/rows/planar_lanes.h"
+// PlanarLanes: planar contacts that are rigid, with a W of full rank, each by its model in SIMD lanes.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "absl/container/inlined_vector.h"
+#include "absl/types/span.h"
 #include "core/models/impact_end.h"
 #include "core/models/planar/columns.h"
+#include "core/models/planar_outputs.h"
 #include "core/models/sliding/columns.h"
 #include "core/numerics/moderate.h"
 #include "core/plan/arithmetic.h"
 #include "core/plan/choose.h"
+#include "core/plan/demand.h"
 #include "core/plan/planar_models.h"
+#include "core/rows/scene_lanes.h"
+#include "ricochet/outcome.h"
+#include "ricochet/plan.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 namespace {
@@ -28,20 +38,35 @@ bool IsSurelyValid(const planar::Problem& problem) {
          KeepCoefficientRules(problem.mu, problem.mu_static, problem.law, problem.coefficient);
 }
 
-}  // namespace
+class PlanarLanes : public SceneLanes {
+ public:
+  // The numbers of a contact, in the order of their columns (SceneLanes::Numbers).
+  enum Number { kWtt, kWtn, kWnn, kU0, kV0, kMu, kMuStatic, kCoefficient, kNumberCount };
 
-std::unique_ptr<SceneLanes> PlanarLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
-                                              const Demand& demand) {
-  if (!std::holds_alternative<PlanarContact>(scene.system) || !IsPlain(scene)) return nullptr;
-  if (!demand.IsToleranceAlone()) return nullptr;
-  std::vector<PlanarOutput> outputs;
-  for (const std::string& column : columns) {
-    const auto output = OutputAt<PlanarOutput>(kPlanarOutputPaths, column);
-    if (!output.has_value()) return nullptr;
-    outputs.push_back(*output);
-  }
-  return std::unique_ptr<SceneLanes>(new PlanarLanes(scene, std::move(outputs), demand.relative_tolerance));
-}
+  // The law of restitution is that of the scene.
+  PlanarLanes(const Scene& scene, std::vector<PlanarOutput> outputs, double tolerance);
+
+  void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) override;
+
+ private:
+  using Column = std::array<double, kBlock>;
+
+  PlanarProblemColumns ProblemsIn(const Columns& columns, size_t count) const;
+  void SolveBy(Model model, const Columns& columns, size_t count, const PlanarSolvedColumns& solved) const;
+  Columns Gather(const Columns& columns, absl::Span<const uint16_t> some);
+  void SolveTogether(const Columns& columns, absl::Span<const uint16_t> some, size_t count, Model model,
+                     absl::Span<double* const> places, Block& block);
+  void Separate(const Columns& columns, size_t i, absl::Span<double* const> places, Block& block) const;
+  Model ModelAlone(const PlanarProblem& problem) const;
+
+  RestitutionLaw law_;
+  double tolerance_;
+  std::vector<PlanarOutput> outputs_;
+
+  // Contacts of the block that one model solves: their numbers and outputs.
+  std::array<Column, kNumberCount> gathered_;
+  std::vector<Column> answers_;
+};
 
 PlanarLanes::PlanarLanes(const Scene& scene, std::vector<PlanarOutput> outputs, double tolerance)
     : law_(LawAndCoefficientOf(scene.restitution).law),
@@ -154,6 +179,21 @@ void PlanarLanes::Solve(const Columns& columns, size_t count, absl::Span<double*
     if (!contacts_of(model).empty()) SolveTogether(columns, contacts_of(model), count, model, places, block);
   }
   block.is_complete = contacts_of(Model::kUnspecified).empty() && AreFinite(places, 0, count);
+}
+
+}  // namespace
+
+std::unique_ptr<SceneLanes> MakePlanarLanes(const Scene& scene, absl::Span<const std::string> columns,
+                                            const Demand& demand) {
+  if (!std::holds_alternative<PlanarContact>(scene.system) || !IsPlain(scene)) return nullptr;
+  if (!demand.IsToleranceAlone()) return nullptr;
+  std::vector<PlanarOutput> outputs;
+  for (const std::string& column : columns) {
+    const auto output = OutputAt<PlanarOutput>(kPlanarOutputPaths, column);
+    if (!output.has_value()) return nullptr;
+    outputs.push_back(*output);
+  }
+  return std::make_unique<PlanarLanes>(scene, std::move(outputs), demand.relative_tolerance);
 }
 
 }  // namespace ricochet

@@ -4,10 +4,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/rows/pendulum_lanes.h"
-#include "core/rows/planar_body_lanes.h"
-#include "core/rows/planar_lanes.h"
-
 namespace ricochet {
 namespace {
 
@@ -30,9 +26,9 @@ Scene NumberedPart(const Scene& scene) {
 
 std::unique_ptr<SceneLanes> SceneLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
                                              const Demand& demand) {
-  if (auto pendulum = PendulumLanes::Make(scene, columns, demand)) return pendulum;
-  if (auto contact = PlanarLanes::Make(scene, columns, demand)) return contact;
-  return PlanarBodyLanes::Make(scene, columns, demand);
+  if (auto pendulum = MakePendulumLanes(scene, columns, demand)) return pendulum;
+  if (auto contact = MakePlanarLanes(scene, columns, demand)) return contact;
+  return MakePlanarBodyLanes(scene, columns, demand);
 }
 
 std::vector<std::string> SceneLanes::PathsOf(const Scene& scene) {

@@ -72,6 +72,14 @@ class SceneLanes {
   virtual void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) = 0;
 };
 
+// Lanes for systems of one kind. They are null if not every column, or no such scene, can go this way.
+std::unique_ptr<SceneLanes> MakePendulumLanes(const Scene& scene, absl::Span<const std::string> columns,
+                                              const Demand& demand);
+std::unique_ptr<SceneLanes> MakePlanarLanes(const Scene& scene, absl::Span<const std::string> columns,
+                                            const Demand& demand);
+std::unique_ptr<SceneLanes> MakePlanarBodyLanes(const Scene& scene, absl::Span<const std::string> columns,
+                                                const Demand& demand);
+
 // The output of a model with a path, by the paths of its outputs in their order.
 template <typename Output>
 std::optional<Output> OutputAt(absl::Span<const char* const> paths, absl::string_view path) {

@@ -79,33 +79,12 @@ class Check {
  private:
   // It takes the path by value and is kept out of line, so that no path is made of a number that keeps its rule.
   [[gnu::noinline]] void Broken(NumberPath path, double value, NumberRule rule) {
-    Require(false, [&] { return MakeViolation(path.Text(), value, std::isfinite(value) ? Text(rule) : "be finite"); });
+    Require(false, [&] {
+      return MakeViolation(path.Text(), value, std::isfinite(value) ? RangeOf(rule).words : "be finite");
+    });
   }
 
   static bool CountsAll(const Violation& /*violation*/) { return true; }
-
-  static const char* Text(NumberRule rule) {
-    switch (rule) {
-      case NumberRule::kFinite:
-      case NumberRule::kAngle:
-        return "be finite";
-      case NumberRule::kPositive:
-        return "be > 0";
-      case NumberRule::kNotNegative:
-        return "be >= 0";
-      case NumberRule::kUnitInterval:
-        return "be in [0, 1]";
-      case NumberRule::kPlusMinusOne:
-        return "be in [-1, 1]";
-      case NumberRule::kOneToFour:
-        return "be in [1, 4]";
-      case NumberRule::kRatioSquared:
-        return "be in [1e-9, 1e9]";
-      case NumberRule::kHalfTurn:
-        return "be in (0, pi), in radians";
-    }
-    return "";
-  }
 
   Mode mode_;
   absl::FunctionRef<bool(const Violation&)> counts_;

@@ -42,30 +42,31 @@ enum class NumberRule {
   kHalfTurn,  // An angle above 0 and below pi.
 };
 
-// True if `value` keeps `rule`. Every rule compares with two finite ends, so that NaN and infinity break it.
+// The numbers that keep a rule, without `least` if the range is open, and the rule in words.
+struct NumberRange {
+  double least, most;
+  bool is_open;
+  const char* words;
+};
+
+inline constexpr double kLargestNumber = std::numeric_limits<double>::max();
+// In the order of NumberRule. Both ends are finite, so that NaN and infinity break every rule.
+inline constexpr NumberRange kNumberRanges[] = {
+    {-kLargestNumber, kLargestNumber, false, "be finite"},
+    {0.0, kLargestNumber, true, "be > 0"},
+    {0.0, kLargestNumber, false, "be >= 0"},
+    {0.0, 1.0, false, "be in [0, 1]"},
+    {-1.0, 1.0, false, "be in [-1, 1]"},
+    {1.0, 4.0, false, "be in [1, 4]"},
+    {kLeastTangentialRatioSquared, kMostTangentialRatioSquared, false, "be in [1e-9, 1e9]"},
+    {-kLargestNumber, kLargestNumber, false, "be finite"},
+    {0.0, std::numbers::pi, true, "be in (0, pi), in radians"}};  // The double that is called pi lies below pi.
+
+constexpr const NumberRange& RangeOf(NumberRule rule) { return kNumberRanges[static_cast<size_t>(rule)]; }
+
 inline bool Holds(double value, NumberRule rule) {
-  constexpr double kMost = std::numeric_limits<double>::max();
-  switch (rule) {
-    case NumberRule::kFinite:
-    case NumberRule::kAngle:
-      return std::abs(value) <= kMost;
-    case NumberRule::kPositive:
-      return value > 0.0 && value <= kMost;
-    case NumberRule::kNotNegative:
-      return value >= 0.0 && value <= kMost;
-    case NumberRule::kUnitInterval:
-      return value >= 0.0 && value <= 1.0;
-    case NumberRule::kPlusMinusOne:
-      return value >= -1.0 && value <= 1.0;
-    case NumberRule::kOneToFour:
-      return value >= 1.0 && value <= 4.0;
-    case NumberRule::kHalfTurn:
-      // The double that is called pi lies below pi.
-      return value > 0.0 && value <= std::numbers::pi;
-    case NumberRule::kRatioSquared:
-      return value >= kLeastTangentialRatioSquared && value <= kMostTangentialRatioSquared;
-  }
-  return false;
+  const NumberRange& range = RangeOf(rule);
+  return (range.is_open ? value > range.least : value >= range.least) && value <= range.most;
 }
 
 // A number of a part of the scene, an optional number of it, or a list of numbers that keep one rule.
