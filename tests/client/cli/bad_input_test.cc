@@ -188,7 +188,8 @@ std::vector<BadInput> Scenes() {
       {{"solve", "--a", "0.3", "--b"}, "--b: must have a value", ""},
       {{"solve", "--mu", "0.1", "--mu", "0.2"}, "--mu: is given 2 times: must be given once", ""},
       {kSolveInput,
-       "no velocity of the scene is other than 0, so that nothing strikes: must set pendulum.omega_minus_rad_s",
+       "nothing strikes, because all velocities of the scene are 0: must have another value in "
+       "pendulum.omega_minus_rad_s",
        R"({"pendulum": {"inertia_kg_m2": 1, "a_m": 0.3}, "restitution": {"energetic": 1}})"},
       {{"bounds", "--scene", "-"},
        "planar_contact.tangential_m_s, planar_contact.normal_m_s",

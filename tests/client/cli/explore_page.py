@@ -459,7 +459,7 @@ class ExplorePageTest(unittest.TestCase):
     def test_a_field_without_a_number_is_marked_and_has_no_verdict(self):
         for scene, field, label in (("pendulum", "pendulum.a_m", "a, tip beside pin"),
                                     ("box_on_two_feet", "contacts[1].friction", "contact 2: friction μ")):
-            for typed in ("", "1e", "-", "--1", "0,5", "0x10", "1e400", "1e-400"):
+            for typed in ("", "1e", "-", "--1", "1,5", "1x10"):
                 self.open(scene)
                 self.browser.script(f"inputs['{field}'].number.focus(); inputs['{field}'].number.select()")
                 for letter in typed or ["\b"]:
@@ -482,6 +482,11 @@ class ExplorePageTest(unittest.TestCase):
                              ["0.5", 0])
             self.assertTrue(self.text("#state").startswith("✓"))
         self.assertEqual(self.browser.console(), [])
+
+    def test_a_number_is_a_decimal_that_a_double_holds(self):
+        for typed, value in (("0.5", 0.5), (" -1.25e-3 ", -1.25e-3), (".5", 0.5), ("+2.", 2), ("0e9", 0), ("0,5", None),
+                             ("0x10", None), ("1e400", None), ("1e-400", None), ("Infinity", None), ("1 2", None)):
+            self.assertEqual(self.browser.script(f"return numberIn({json.dumps(typed)})"), value, typed)
 
     def test_an_address_of_several_contacts_is_that_of_a_box(self):
         box = self.browser.script("return start.scenes.box_on_two_feet")
