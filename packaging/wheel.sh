@@ -24,7 +24,8 @@ bundle_libraries() {
 
 install_missing "${build_packages[@]}" "${wheel_packages[@]}"
 say "Building: the Python package"
-rm -rf build/wheel "$staged"
+# With its stamps and what setuptools keeps of an earlier wheel, so that all of it is made anew.
+rm -rf build/wheel "${staged%/*}"
 cmake --preset release --log-level=WARNING -DRICOCHET_TESTS=OFF -DRICOCHET_BENCHMARKS=OFF
 cmake --build --preset release --target ricochet_python
 strip --strip-unneeded "$staged"/_core*.so

@@ -146,7 +146,8 @@ std::vector<Setting> NetworkSettings() {
        [](const std::string& text, Options& to) { return ReadMode(text, to.socket_mode); }},
       {"port-file", "FILE", "Write the bound port to this file once the server takes calls",
        [](const std::string& text, Options& to) { return ReadPath(text, to.port_file); }},
-      {"insecure", "", "Allow a --listen address that other hosts can reach; nothing is encrypted",
+      {"insecure", "",
+       "Allow --listen and --metrics addresses that other hosts can reach; only --tls-cert encrypts calls",
        [](const std::string& text, Options& to) {
          return ReadName<bool>(text, {{"true", true}, {"1", true}, {"false", false}, {"0", false}}, to.insecure);
        }},

@@ -53,7 +53,8 @@ Course CourseOf(const Scene& scene, const Outcome& outcome) {
       course.slip_before = SignOf(slip[0]);
       const bool is_rigid = outcome.plan.model == Model::kPlanar || outcome.plan.model == Model::kSliding;
       const double after = outcome.contact_velocity_after.tangential_m_s[0];
-      if (course.slip_before == 0 && is_rigid) course.slip_started = SignOf(after);
+      const bool has_friction = outcome.regime != Regime::kFrictionless;
+      if (course.slip_before == 0 && is_rigid && has_friction) course.slip_started = SignOf(after);
     } else {
       course.slip_before = std::any_of(slip.begin(), slip.end(), [](double u) { return u != 0.0; }) ? 1 : 0;
     }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -61,6 +62,8 @@ inline constexpr NumberRange kNumberRanges[] = {
     {kLeastTangentialRatioSquared, kMostTangentialRatioSquared, false, "be in [1e-9, 1e9]"},
     {-kLargestNumber, kLargestNumber, false, "be finite"},
     {0.0, std::numbers::pi, true, "be in (0, pi), in radians"}};  // The double that is called pi lies below pi.
+
+static_assert(std::size(kNumberRanges) == static_cast<size_t>(NumberRule::kHalfTurn) + 1);
 
 constexpr const NumberRange& RangeOf(NumberRule rule) { return kNumberRanges[static_cast<size_t>(rule)]; }
 

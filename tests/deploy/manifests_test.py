@@ -7,6 +7,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import yaml
@@ -120,10 +121,17 @@ class ManifestsTest(unittest.TestCase):
         (container,) = job["template"]["spec"]["containers"]
         self.assertEqual(job["completionMode"], "Indexed")
         self.assertIn(f"--shard-count={job['completions']}", container["args"])
-        self.assertIn({"name": "RICOCHET_SERVER", "value": ""}, container["env"])
         (merge,) = MANIFESTS["sweep/merge.yaml"]["spec"]["template"]["spec"]["containers"]
         (output,) = [argument for argument in container["args"] if argument.startswith("--output=")]
         self.assertEqual(merge["args"][-1], output.removeprefix("--output="))
+
+    def test_a_pod_of_the_job_computes_without_the_server_of_the_image(self):
+        (container,) = MANIFESTS["sweep/job.yaml"]["spec"]["template"]["spec"]["containers"]
+        with tempfile.TemporaryDirectory() as results:
+            arguments = [argument.replace("/results", results) for argument in container["args"]]
+            environment = {"PATH": f"{RICOCHET.parent}:/usr/bin:/bin", "RICOCHET_SERVER": "127.0.0.1:1",
+                           "JOB_COMPLETION_INDEX": "0"}
+            subprocess.run([*container["command"], *arguments], check=True, env=environment, timeout=60)
 
     def test_tls_asks_by_the_command_line(self):
         spec = MANIFESTS["tls/deployment.yaml"]["spec"]["template"]["spec"]

@@ -20,7 +20,7 @@ fuzzed_code() {
       find core/cost -name '*cost*.cc' -o -name '*_methods.cc' -o -name 'reference_velocity.cc' \
         -o -name 'certified_velocity.cc' -o -name 'stopwatch.cc'
       ;;
-    duration) find core/models/finite_duration core/contact/finite_forces.cc -name '*.cc' ! -name unavailable.cc ;;
+    duration) find core/models/finite_duration core/contact/finite_forces.cc -name '*.cc' ;;
     fit) find core/fit -name '*.cc' ;;
     models)
       find core/engine/local_solver.cc core/answer core/contact core/models core/plan/scene_problem.cc core/scene \

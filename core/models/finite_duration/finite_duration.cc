@@ -83,7 +83,10 @@ double ErrorOfAnyPath(const ScaledContact& contact, const Path& path) {
   // A relative error of a force causes the same relative error of the change of velocity.
   const double normal = std::max(local[kPlace] / std::max(1.0, path.peaks.place), local[kV]);
   const double shift = std::fabs(contact.at) * end[kTime] * normal;
-  double error = std::max(growth * normal, local[kU]) + shift;
+  // A relative error of the normal force is one of what the contact has changed the slip by since it last stopped.
+  const bool never_stops = path.first_stop == FirstStop::kNever;
+  const double by_contact = never_stops ? end[kU] - contact.u0 - contact.at * end[kTime] : end[kU];
+  double error = std::max(growth * normal, local[kU] + std::fabs(by_contact) * normal) + shift;
   if (contact.compliant) {
     error = growth * std::max(normal, local[kU] + ErrorOfCompliantSlip(contact, path, normal)) + shift;
   }

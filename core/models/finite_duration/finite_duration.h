@@ -59,7 +59,7 @@ struct Impact : ImpactEnd<double> {
   std::vector<TimedInstant> events;
 };
 
-// Asks `stopped` every few dozen steps, in less than a millisecond, and ends soon after it says true.
+// Asks `stopped` every four steps, in about a millisecond at most, and ends soon after it says true.
 Impact Solve(
     const Problem& problem, absl::FunctionRef<bool()> stopped = [] { return false; });
 

@@ -4,7 +4,7 @@ namespace ricochet::finite_duration {
 namespace {
 
 void SetRigidGuards(const ScaledContact& contact, const Mode& mode, const Motion& y, const Forces& forces,
-                    const Acceleration& rate, Guards& guards) {
+                    Guards& guards) {
   if (mode.Sticks()) {
     // The cone is left nowhere unless a finite force acts along t.
     if (contact.at == 0.0) return;
@@ -13,25 +13,19 @@ void SetRigidGuards(const ScaledContact& contact, const Mode& mode, const Motion
     guards[kUpper] = hold - drive;
     guards[kLower] = hold + drive;
   } else if (!contact.coupled) {
-    const double sign = SlipSign(mode.friction);
-    guards[kUpper] = sign * y[kU];
-    if (contact.at != 0.0) guards[kUpperExtreme] = sign * rate.u;
+    guards[kUpper] = SlipSign(mode.friction) * y[kU];
   }
 }
 
 void SetCompliantGuards(const ScaledContact& contact, const Mode& mode, const Motion& y, const Forces& forces,
-                        const Acceleration& rate, Guards& guards) {
+                        Guards& guards) {
   if (mode.Sticks()) {
     const double cone = contact.mu * forces.normal;
     guards[kUpper] = cone - forces.tangential;
     guards[kLower] = cone + forces.tangential;
-    guards[kUpperExtreme] = -ParticleSpeed(contact, mode, -1.0, y[kU], y[kV]);
-    guards[kLowerExtreme] = ParticleSpeed(contact, mode, 1.0, y[kU], y[kV]);
     guards[kForceExtreme] = y[kU];
   } else {
-    const double sign = SlipSign(mode.friction);
-    guards[kUpper] = ParticleSpeed(contact, mode, sign, y[kU], y[kV]);
-    guards[kUpperExtreme] = ParticleSpeed(contact, mode, sign, rate.u, rate.v);
+    guards[kUpper] = ParticleSpeed(contact, mode, SlipSign(mode.friction), y[kU], y[kV]);
   }
 }
 
@@ -50,25 +44,22 @@ Guards GuardsAt(const ScaledContact& contact, const Mode& mode, const Motion& y)
   Guards guards;
   guards.fill(1.0);
   const Forces forces = ForcesAt(contact, mode, y);
-  const Acceleration rate = AccelerationAt(contact, mode, forces);
   guards[kReversal] = mode.Unloads() ? y[kV] : -y[kV];
-  // If no finite force acts, the acceleration is N times a constant, whose sign rounding may lose.
-  const bool may_return = contact.at != 0.0 || contact.an != 0.0 || contact.compliant;
-  if (may_return) guards[kReversalExtreme] = rate.v;
   if (mode.Unloads()) guards[kBranchEnd] = y[kPlace];
   if (mode.branch == LoadingBranch::kReloading) guards[kBranchEnd] = mode.largest_place - y[kPlace];
   if (contact.damped) {
     // The guard of the extreme force is N' over x^(p-1).
     const double x = contact.rooted ? Square(y[kPlace]) : y[kPlace];
     const double stretch = Stretch(contact, y);
-    guards[kForceExtreme] = -contact.exponent * y[kV] * stretch - x * contact.damping * rate.v;
+    guards[kForceExtreme] =
+        -contact.exponent * y[kV] * stretch - x * contact.damping * AccelerationAt(contact, mode, forces).v;
     if (mode.Unloads() && IsPulledApart(contact, mode, y)) guards[kTension] = stretch;
   }
   if (mode.friction == FrictionState::kNone) return guards;
   if (contact.compliant) {
-    SetCompliantGuards(contact, mode, y, forces, rate, guards);
+    SetCompliantGuards(contact, mode, y, forces, guards);
   } else {
-    SetRigidGuards(contact, mode, y, forces, rate, guards);
+    SetRigidGuards(contact, mode, y, forces, guards);
   }
   return guards;
 }

@@ -1,6 +1,6 @@
 // Guards: the event functions of a mode. A mode lasts while its guards are >= 0.
 //
-// The turning points of what may leave and come back within one step, and those of the forces, are watched too.
+// A turning point of a force is watched, too, because its peak lies there.
 
 #ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_GUARDS_H_
 #define RICOCHET_CORE_MODELS_FINITE_DURATION_GUARDS_H_
@@ -12,7 +12,7 @@
 
 namespace ricochet::finite_duration {
 
-// The first kModeGuards end the mode where they fall below 0; the others have a turning point at 0.
+// The first kModeGuards end the mode where they fall below 0.
 enum Guard : size_t {
   kReversal,   // v is about to change sign.
   kBranchEnd,  // Unloading: the spring is free. Reloading: d_max is reached again.
@@ -20,10 +20,7 @@ enum Guard : size_t {
   kUpper,      // Slip, the particle's slip, or the upper side of the friction cone.
   kLower,      // The lower side of the friction cone.
   kModeGuards,
-  kReversalExtreme = kModeGuards,
-  kUpperExtreme,
-  kLowerExtreme,
-  kForceExtreme,
+  kForceExtreme = kModeGuards,  // It is 0 where N, or the force of the tangential spring, has an extreme.
   kGuards
 };
 using Guards = std::array<double, kGuards>;

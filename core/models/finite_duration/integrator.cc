@@ -46,6 +46,7 @@ void Integrator::Begin(const Mode& mode, const Motion& y, double tolerance) {
   constexpr double kWeakest = 0x1p-60;
   const double pull = std::clamp(std::max(std::fabs(contact_.an), std::fabs(contact_.at)), kWeakest, 1.0);
   absolute_[kStretch] = contact_.pulled ? pull : HUGE_VAL;
+  largest_.fill(0.0);
   s_ = previous_s_ = 0.0;
   next_size_ = kFirstSize;
   guards_before_ = GuardsAt(contact_, mode_, y_);
@@ -67,10 +68,14 @@ double Integrator::SizeOf(const End& end) const {
 }
 
 // The formula of order 8, which is followed, errs by less than that of order 7 by about the size of a step, which is
-// the eighth root of the error. Powers of q that are not integers have no eighth derivative at q = 0, nor order there.
+// the eighth root of the error; where x^p is no polynomial of q, at least by the part of q that the step goes.
 double Integrator::ShareOfOrder8(const End& end) const {
+  const double share = EighthRoot(tolerance_ * SizeOf(end));
   const bool is_smooth = !contact_.rooted || 2.0 * contact_.exponent == std::round(2.0 * contact_.exponent);
-  return is_smooth ? std::min(1.0, EighthRoot(tolerance_ * SizeOf(end))) : 1.0;
+  const double least = std::min(std::fabs(before_[kPlace]), std::fabs(end.y[kPlace]));
+  const double moved = std::fabs(end.y[kPlace] - before_[kPlace]);
+  if (is_smooth || share * least > moved) return std::min(1.0, share);
+  return moved < least ? moved / least : 1.0;
 }
 
 bool Integrator::TakeWholeStep(double& h, End& end) {
@@ -85,51 +90,63 @@ bool Integrator::TakeWholeStep(double& h, End& end) {
   return false;
 }
 
-Guards Integrator::SlopesAt(const Motion& y, const Guards& guards, double h) const {
+Integrator::Watch Integrator::WatchAt(const Motion& y, double h) const {
   const double ahead = 0x1p-20 * h;
   const Motion rates = RatesAt(contact_, mode_, y);
   Motion next;
   for (size_t i = 0; i < kParts; ++i) next[i] = y[i] + ahead * rates[i];
-  Guards slopes = GuardsAt(contact_, mode_, next);
-  for (size_t i = 0; i < kGuards; ++i) slopes[i] = (slopes[i] - guards[i]) / ahead;
-  return slopes;
+  Watch watch = {GuardsAt(contact_, mode_, y), GuardsAt(contact_, mode_, next)};
+  for (size_t i = 0; i < kGuards; ++i) watch.slope[i] = (watch.slope[i] - watch.value[i]) / ahead;
+  return watch;
 }
 
-std::optional<double> Integrator::FindDip(size_t i, double h, double after, double slope_before, double slope_after) {
-  const double before = guards_before_[i];
-  const double side = before > 0.0 ? 1.0 : -1.0;
-  if (!(side * slope_before < 0.0 && side * slope_after > 0.0)) return std::nullopt;
-  // The tangents at the ends meet below a dip between them.
-  const double meet = (after - slope_after * h - before) / (slope_before - slope_after);
-  if (!(side * (before + slope_before * meet) < 0.0)) return std::nullopt;
-  const auto guard = [&](double at) { return side * GuardsAt(contact_, mode_, After(at).y)[i]; };
+std::optional<double> Integrator::FindDip(size_t i, double h, const Watch& before, const Watch& after) {
+  const double value = before.value[i], slope = before.slope[i];
+  const double side = value > 0.0 ? 1.0 : -1.0;
+  if (!(side * slope < 0.0 && side * after.slope[i] > 0.0)) return std::nullopt;
+  // The tangents at the ends meet below a dip that is convex, and not far above any other.
+  constexpr double kNear = 0.25;
+  const double meet = (after.value[i] - after.slope[i] * h - value) / (slope - after.slope[i]);
+  const double least_end = std::min(std::fabs(value), std::fabs(after.value[i]));
+  if (!(side * (value + slope * meet) < kNear * least_end)) return std::nullopt;
+  const auto guard = [&](double part) { return side * GuardsAt(contact_, mode_, After(part * h).y)[i]; };
   constexpr int kBits = 20;
-  const auto [place, least] = boost::math::tools::brent_find_minima(guard, 0.0, h, kBits);
-  return HasRoot(i, before, side * least) ? std::optional(place) : std::nullopt;
+  const auto [part, least] = boost::math::tools::brent_find_minima(guard, 0.0, 1.0, kBits);
+  return HasRoot(i, value, side * least) ? std::optional(part * h) : std::nullopt;
 }
 
-void Integrator::CutAtRoot(double& h, End& end) {
-  const Guards slopes_before = SlopesAt(before_, guards_before_, h);
+// Where forces balance, rounding alone changes the sign of a turning point.
+bool Integrator::IsNoise(size_t i, double before, double after) {
+  constexpr double kSmall = 0x1p-30;
+  largest_[i] = std::max({largest_[i], std::fabs(before), std::fabs(after)});
+  return std::max(std::fabs(before), std::fabs(after)) <= kSmall * largest_[i];
+}
+
+Guards Integrator::CutAtRoot(double& h, End& end) {
+  const double size = h;
+  const Watch before = WatchAt(before_, size);
+  Watch after = WatchAt(end.y, size);
+  const auto cut = [&](double at) {
+    h = at;
+    end = After(h);
+    after = WatchAt(end.y, size);
+  };
   for (size_t i = 0; i < kGuards; ++i) {
-    Guards guards = GuardsAt(contact_, mode_, end.y);
-    if (!HasRoot(i, guards_before_[i], guards[i])) {
-      const Guards slopes = SlopesAt(end.y, guards, h);
-      const std::optional<double> dip = FindDip(i, h, guards[i], slopes_before[i], slopes[i]);
+    if (i >= kModeGuards && IsNoise(i, before.value[i], after.value[i])) continue;
+    if (!HasRoot(i, before.value[i], after.value[i])) {
+      const std::optional<double> dip = FindDip(i, h, before, after);
       if (!dip.has_value()) continue;
-      h = *dip;
-      end = After(h);
-      guards = GuardsAt(contact_, mode_, end.y);
+      cut(*dip);
     }
-    const double after = guards[i];
     const auto guard = [&](double at) { return InRange(GuardsAt(contact_, mode_, After(at).y)[i]); };
     // A turning point to half of the digits has the value there to all of them.
     const boost::math::tools::eps_tolerance<double> closeness(i < kModeGuards ? 52 : 26);
     std::uintmax_t evaluations = 100;
-    h = boost::math::tools::toms748_solve(guard, 0.0, h, InRange(guards_before_[i]), InRange(after), closeness,
+    cut(boost::math::tools::toms748_solve(guard, 0.0, h, InRange(before.value[i]), InRange(after.value[i]), closeness,
                                           evaluations)
-            .second;
-    end = After(h);
+            .second);
   }
+  return after.value;
 }
 
 bool Integrator::Step(std::array<bool, kModeGuards>& fallen) {
@@ -140,7 +157,7 @@ bool Integrator::Step(std::array<bool, kModeGuards>& fallen) {
   double h = 0.0;
   End end;
   if (!TakeWholeStep(h, end)) return false;
-  CutAtRoot(h, end);
+  const Guards guards = CutAtRoot(h, end);
   ++steps_;
   s_ = previous_s_ + h;
   y_ = end.y;
@@ -148,7 +165,6 @@ bool Integrator::Step(std::array<bool, kModeGuards>& fallen) {
   for (size_t i = 0; i < kParts; ++i) {
     local_errors_[i] += share * std::fabs(end.error[i]) + kRounding * std::fabs(y_[i]);
   }
-  const Guards guards = GuardsAt(contact_, mode_, y_);
   for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = HasRoot(i, guards_before_[i], guards[i]);
   guards_before_ = guards;
   return std::none_of(guards.begin(), guards.end(), [](double guard) { return std::isnan(guard); });

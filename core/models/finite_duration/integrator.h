@@ -26,7 +26,7 @@ class Integrator {
   void Begin(const Mode& mode, const Motion& y, double tolerance);
 
   // Goes to the end of a step or the next root, and marks in `fallen` the guards that have fallen to 0 there. Returns
-  // false if no step is small enough.
+  // false if no step is small enough, or a guard is NaN.
   bool Step(std::array<bool, kModeGuards>& fallen);
 
   const Motion& y() const { return y_; }
@@ -39,6 +39,7 @@ class Integrator {
   // estimates them.
   Motion TakeLocalErrors() { return std::exchange(local_errors_, Motion{}); }
   // Returns the steps and the evaluations of the rates since the last call.
+  int64_t right_hand_sides() const { return right_hand_sides_; }
   std::pair<int64_t, int64_t> TakeCosts() { return {std::exchange(steps_, 0), std::exchange(right_hand_sides_, 0)}; }
 
  private:
@@ -50,13 +51,17 @@ class Integrator {
   // The error of the step over that of the formula of order 7.
   double ShareOfOrder8(const End& end) const;
   bool TakeWholeStep(double& h, End& end);
-  // Cuts the step of size `h` at the first root in it.
-  void CutAtRoot(double& h, End& end);
+  // Cuts the step of size `h` at the first root in it, and returns the guards at its end.
+  Guards CutAtRoot(double& h, End& end);
+  // The guards at a place, and how fast they change there.
+  struct Watch {
+    Guards value, slope;
+  };
+  Watch WatchAt(const Motion& y, double h) const;
   // Returns where in a step of size `h` the guard `i`, which has one sign at both ends, has another; nothing if it is
   // not seen to.
-  std::optional<double> FindDip(size_t i, double h, double after, double slope_before, double slope_after);
-  // Returns how fast the guards change where the motion is y.
-  Guards SlopesAt(const Motion& y, const Guards& guards, double h) const;
+  std::optional<double> FindDip(size_t i, double h, const Watch& before, const Watch& after);
+  bool IsNoise(size_t i, double before, double after);
 
   const ScaledContact& contact_;
   Mode mode_;
@@ -65,6 +70,7 @@ class Integrator {
   Motion before_ = {}, y_ = {};
   Motion rates_before_ = {};
   Guards guards_before_ = {};
+  Guards largest_ = {};  // The largest size of each guard in the mode.
   double s_ = 0.0, previous_s_ = 0.0;
   double next_size_ = 0.0;
   int64_t steps_ = 0, right_hand_sides_ = 0;

@@ -13,7 +13,7 @@ namespace ricochet::finite_duration {
 namespace {
 
 // Budgets of one integration.
-constexpr int64_t kStepBudget = 50'000;
+constexpr int64_t kWorkBudget = 500'000;  // Evaluations of the rates.
 constexpr int64_t kReversalBudget = 200;
 
 class PathFollower {
@@ -53,7 +53,7 @@ class PathFollower {
     mode_changed_ = false;
     while (!mode_changed_ && path_.how == PathEnd::kUnderway) {
       if (stop_.IsStopped()) return EndPath(PathEnd::kStopped);
-      if (steps_++ == kStepBudget) return EndPath(PathEnd::kBudgetUsedUp);
+      if (work_ > kWorkBudget) return EndPath(PathEnd::kBudgetUsedUp);
       TakeStep();
     }
     AddStraightPiece(before, loads);
@@ -70,7 +70,10 @@ class PathFollower {
 
   void TakeStep() {
     std::array<bool, kModeGuards> fallen;
-    if (!integrator_.Step(fallen)) return EndPath(PathEnd::kNeverEnds);
+    work_ -= integrator_.right_hand_sides();
+    const bool is_taken = integrator_.Step(fallen);
+    work_ += integrator_.right_hand_sides();
+    if (!is_taken) return EndPath(PathEnd::kNeverEnds);
     const Motion& next = integrator_.y();
     if (RunsBack(next[kTime]) || LeavesRange(next)) return EndPath(PathEnd::kNeverEnds);
     y_ = next;
@@ -229,8 +232,8 @@ class PathFollower {
   Path path_;
   bool mode_changed_ = false;
   bool compression_ended_ = false;
-  int64_t steps_ = 0;
   int64_t reversals_ = 0;
+  int64_t work_ = 0;  // Evaluations of the rates in steps; those of a history are not counted.
 };
 
 }  // namespace

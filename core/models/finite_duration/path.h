@@ -70,7 +70,8 @@ struct Path {
   bool HasEnd() const { return how == PathEnd::kParted || how == PathEnd::kHeld; }
 };
 
-// The local error of each step is within `tolerance`. `history` may be null.
+// The local errors of each step are within `tolerance`, as a root mean square over the parts of the motion. `history`
+// may be null.
 Path FollowPath(const ScaledContact& contact, Integrator& integrator, double tolerance, StopCheck& stop,
                 HistoryRecorder* history);
 

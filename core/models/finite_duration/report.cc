@@ -46,7 +46,7 @@ void WriteCoefficients(double coefficient, const ScaledContact& contact, const P
   const double left = contact.stiffness * Pow(Indentation(contact, {}, path.end), p) / p;
   const double lost = (path.end[kDampingLoss] + left) / -path.compression[kNormalWork];
   impact.energetic = std::sqrt(std::max(0.0, 1.0 - lost));
-  impact.energetic_excess = -lost / (1.0 + impact.energetic);
+  impact.energetic_excess = std::max(-1.0, -lost / (1.0 + impact.energetic));
 }
 
 void WriteWorks(const ScaledContact& contact, const Path& path, Impact& impact) {

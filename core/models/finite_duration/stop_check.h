@@ -11,8 +11,8 @@ class StopCheck {
  public:
   explicit StopCheck(absl::FunctionRef<bool()> stopped) : stopped_(stopped) {}
 
-  // Call it before each step of the integration and each sample of a history; both take a few microseconds. The caller
-  // is asked before the first of every kPieces.
+  // Call it before each step of the integration and each sample of a history; both take some ten microseconds. The
+  // caller is asked before the first of every kPieces.
   bool IsStopped() {
     if (piece_ == 0 && !is_stopped_) is_stopped_ = stopped_();
     piece_ = (piece_ + 1) % kPieces;
@@ -23,7 +23,7 @@ class StopCheck {
   bool WasStopped() const { return is_stopped_; }
 
  private:
-  static constexpr int kPieces = 64;
+  static constexpr int kPieces = 4;
 
   absl::FunctionRef<bool()> stopped_;
   bool is_stopped_ = false;

@@ -127,6 +127,17 @@ TEST(NearThresholds, SlipThatStartsTheOtherWayIsAnotherCourse) {
   EXPECT_NEAR(found[0].above->distance, -kWtn - kMu * kWtt, 1e-12);
 }
 
+// Without friction slip from rest changes its direction smoothly.
+TEST(NearThresholds, ASmoothContactHasNoneOfFriction) {
+  const Scene scene = {
+      .system = PlanarContact{.w_tt_per_kg = 1.0, .w_tn_per_kg = 0.3, .w_nn_per_kg = 1.0, .normal_m_s = -1.0},
+      .restitution = NewtonCoefficient{0.5}};
+  const std::vector<Derivative> found = DerivativesOf(scene, {"planar_contact.w_tn_per_kg"});
+  ASSERT_EQ(found.size(), 1U);
+  ASSERT_TRUE(found[0].below.has_value());
+  EXPECT_NE(found[0].below->threshold, Threshold::kFrictionLimit);
+}
+
 TEST(NearThresholds, HaveTheirNames) {
   Slip slip = {.w_tt = 3.0, .w_tn = 0.5, .w_nn = 1.5, .u = 1.0, .mu = 0.25, .e = 0.5};
   const std::vector<Derivative> found = DerivativesOf(slip.Stated(), {kFriction, kTangential, kNormal});
