@@ -29,7 +29,9 @@ constexpr char kExample[] =
     R"(Example: a page to drag friction, geometry and velocity, until Ctrl-C. It opens no browser.
   $ ricochet explore
   http://127.0.0.1:40719/?token=4f6f1c...
-The same address answers the calls of the service as HTTP with JSON, to whoever knows the token (docs/page.md).
+The same address answers the calls of the service as HTTP with JSON, to whoever knows the token (docs/page.md):
+  $ curl -H "Authorization: Bearer 4f6f1c..." --json @request.json \
+      http://127.0.0.1:40719/ricochet.v1.ImpactService/Solve
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct ExploreOptions {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/match.h"
@@ -28,17 +29,17 @@ std::string Wrap(const std::string& text, size_t indent, size_t start) {
 std::string WrapFooter(const std::string& footer) {
   std::string text;
   std::string sentences;
+  const auto end_sentences = [&] { absl::StrAppend(&text, Wrap(std::exchange(sentences, ""), 0, 0), "\n"); };
   for (const absl::string_view line : absl::StrSplit(footer, '\n')) {
-    if (sentences.empty() && absl::StartsWith(line, "  ")) {
+    if (absl::StartsWith(line, "  ")) {
+      if (!sentences.empty()) end_sentences();
       absl::StrAppend(&text, line, "\n");
       continue;
     }
     absl::StrAppend(&sentences, sentences.empty() ? "" : " ", line);
-    if (Characters(line) > kLongLine) continue;
-    absl::StrAppend(&text, Wrap(sentences, 0, 0), "\n");
-    sentences.clear();
+    if (Characters(line) <= kLongLine) end_sentences();
   }
-  if (!sentences.empty()) absl::StrAppend(&text, Wrap(sentences, 0, 0), "\n");
+  if (!sentences.empty()) end_sentences();
   return text;
 }
 

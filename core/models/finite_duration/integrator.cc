@@ -49,7 +49,8 @@ void Integrator::Begin(const Mode& mode, const Motion& y, double tolerance) {
   largest_.fill(0.0);
   s_ = previous_s_ = 0.0;
   next_size_ = kFirstSize;
-  guards_before_ = GuardsAt(contact_, mode_, y_);
+  rates_ = RatesAt(contact_, mode_, y_);
+  guards_ = GuardsAt(contact_, mode_, y_);
 }
 
 Integrator::End Integrator::After(double h) {
@@ -90,12 +91,11 @@ bool Integrator::TakeWholeStep(double& h, End& end) {
   return false;
 }
 
-Integrator::Watch Integrator::WatchAt(const Motion& y, double h) const {
+Integrator::Watch Integrator::WatchAt(const Motion& y, const Motion& rates, double h) const {
   const double ahead = 0x1p-20 * h;
-  const Motion rates = RatesAt(contact_, mode_, y);
   Motion next;
   for (size_t i = 0; i < kParts; ++i) next[i] = y[i] + ahead * rates[i];
-  Watch watch = {GuardsAt(contact_, mode_, y), GuardsAt(contact_, mode_, next)};
+  Watch watch = {rates, GuardsAt(contact_, mode_, y), GuardsAt(contact_, mode_, next)};
   for (size_t i = 0; i < kGuards; ++i) watch.slope[i] = (watch.slope[i] - watch.value[i]) / ahead;
   return watch;
 }
@@ -122,14 +122,15 @@ bool Integrator::IsNoise(size_t i, double before, double after) {
   return std::max(std::fabs(before), std::fabs(after)) <= kSmall * largest_[i];
 }
 
-Guards Integrator::CutAtRoot(double& h, End& end) {
+Integrator::Watch Integrator::CutAtRoot(double& h, End& end) {
   const double size = h;
-  const Watch before = WatchAt(before_, size);
-  Watch after = WatchAt(end.y, size);
+  const Watch before = WatchAt(before_, rates_before_, size);
+  const auto watch_end = [&] { return WatchAt(end.y, RatesAt(contact_, mode_, end.y), size); };
+  Watch after = watch_end();
   const auto cut = [&](double at) {
     h = at;
     end = After(h);
-    after = WatchAt(end.y, size);
+    after = watch_end();
   };
   for (size_t i = 0; i < kGuards; ++i) {
     if (i >= kModeGuards && IsNoise(i, before.value[i], after.value[i])) continue;
@@ -146,18 +147,21 @@ Guards Integrator::CutAtRoot(double& h, End& end) {
                                           evaluations)
             .second);
   }
-  return after.value;
+  return after;
 }
 
 bool Integrator::Step(std::array<bool, kModeGuards>& fallen) {
   previous_s_ = s_;
   before_ = y_;
-  rates_before_ = RatesAt(contact_, mode_, y_);
+  rates_before_ = rates_;
   ++right_hand_sides_;
   double h = 0.0;
   End end;
   if (!TakeWholeStep(h, end)) return false;
-  const Guards guards = CutAtRoot(h, end);
+  const Guards guards_before = guards_;
+  const Watch at_end = CutAtRoot(h, end);
+  rates_ = at_end.rates;
+  guards_ = at_end.value;
   ++steps_;
   s_ = previous_s_ + h;
   y_ = end.y;
@@ -165,9 +169,9 @@ bool Integrator::Step(std::array<bool, kModeGuards>& fallen) {
   for (size_t i = 0; i < kParts; ++i) {
     local_errors_[i] += share * std::fabs(end.error[i]) + kRounding * std::fabs(y_[i]);
   }
-  for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = HasRoot(i, guards_before_[i], guards[i]);
-  guards_before_ = guards;
-  return std::none_of(guards.begin(), guards.end(), [](double guard) { return std::isnan(guard); });
+  // A guard that starts at 0 and falls has no root; it is below 0 at the end of a step.
+  for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = guards_[i] < 0.0 || HasRoot(i, guards_before[i], guards_[i]);
+  return std::none_of(guards_.begin(), guards_.end(), [](double guard) { return std::isnan(guard); });
 }
 
 }  // namespace ricochet::finite_duration

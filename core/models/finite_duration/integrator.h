@@ -25,8 +25,8 @@ class Integrator {
   // Starts anew at s = 0, in `mode`.
   void Begin(const Mode& mode, const Motion& y, double tolerance);
 
-  // Goes to the end of a step or the next root, and marks in `fallen` the guards that have fallen to 0 there. Returns
-  // false if no step is small enough, or a guard is NaN.
+  // Goes to the end of a step or the next root, and marks in `fallen` the guards that have fallen to 0 there, or are
+  // below it. Returns false if no step is small enough, or a guard is NaN.
   bool Step(std::array<bool, kModeGuards>& fallen);
 
   const Motion& y() const { return y_; }
@@ -51,13 +51,14 @@ class Integrator {
   // The error of the step over that of the formula of order 7.
   double ShareOfOrder8(const End& end) const;
   bool TakeWholeStep(double& h, End& end);
-  // Cuts the step of size `h` at the first root in it, and returns the guards at its end.
-  Guards CutAtRoot(double& h, End& end);
-  // The guards at a place, and how fast they change there.
+  // What a place in a step of size `h` is watched by.
   struct Watch {
-    Guards value, slope;
+    Motion rates;
+    Guards value, slope;  // The guards, and how fast they change.
   };
-  Watch WatchAt(const Motion& y, double h) const;
+  Watch WatchAt(const Motion& y, const Motion& rates, double h) const;
+  // Cuts the step of size `h` at the first root in it, and returns what its end is watched by.
+  Watch CutAtRoot(double& h, End& end);
   // Returns where in a step of size `h` the guard `i`, which has one sign at both ends, has another; nothing if it is
   // not seen to.
   std::optional<double> FindDip(size_t i, double h, const Watch& before, const Watch& after);
@@ -68,8 +69,8 @@ class Integrator {
   double tolerance_ = 0.0;
   Motion absolute_ = {};  // Errors up to these times the tolerance count as small.
   Motion before_ = {}, y_ = {};
-  Motion rates_before_ = {};
-  Guards guards_before_ = {};
+  Motion rates_before_ = {}, rates_ = {};
+  Guards guards_ = {};
   Guards largest_ = {};  // The largest size of each guard in the mode.
   double s_ = 0.0, previous_s_ = 0.0;
   double next_size_ = 0.0;

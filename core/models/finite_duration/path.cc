@@ -79,9 +79,6 @@ class PathFollower {
     y_ = next;
     if (history_ != nullptr) history_->AddSamplesOfStep(mode_, y_, stop_);
     path_.peaks.Add(contact_, mode_, y_);
-    // A guard that starts at 0 and falls has no root; it is below 0 at the end of a step.
-    const Guards guards = GuardsAt(contact_, mode_, y_);
-    for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = fallen[i] || guards[i] < 0.0;
     HandleEvents(fallen);
   }
 

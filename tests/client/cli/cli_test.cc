@@ -187,6 +187,18 @@ TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
   }
 }
 
+// Commands of an example can be copied line by line, also where a long sentence stands before them.
+TEST_F(Cli, EveryPromptOfHelpBeginsItsLine) {
+  for (const std::string subcommand : {"solve", "bounds", "sweep", "merge", "plot", "audit", "fit", "multicontact",
+                                       "conformance", "cost", "scene", "explore", "health", "info"}) {
+    const CliResult help = Run({subcommand, "--help"});
+    EXPECT_EQ(help.exit_code, 0) << subcommand;
+    for (size_t at = help.out.find("  $ "); at != std::string::npos; at = help.out.find("  $ ", at + 1)) {
+      EXPECT_EQ(help.out[at - 1], '\n') << subcommand;
+    }
+  }
+}
+
 // A terminal would obey it, and a server can send it.
 TEST_F(Cli, NoErrorHasAControlCharacter) {
   const CliResult result = Run({"solve", "--scene", "\x1b[31m.json"});
