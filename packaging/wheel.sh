@@ -7,17 +7,21 @@ source "$(dirname "${BASH_SOURCE[0]}")/../tools/dev_lib.sh"
 readonly wheel_packages=(patchelf python3-build python3-numpy python3-setuptools python3-wheel)
 readonly staged=build/release/python/package/ricochet
 
-# Copies the libraries that the module needs to it, where it then finds them; those of glibc and of GCC are everywhere.
+# Copies the libraries that the module needs to it, where it then finds them, and their licences; those of glibc and of
+# GCC are everywhere.
 bundle_libraries() {
-  local module=$1 library
-  mkdir "$staged/libs"
+  local module=$1 library package
+  mkdir -p "$staged/libs/copyright"
   ldd "$module" | sed -n 's/.* => \(\/[^ ]*\) .*/\1/p' |
     grep -vE '/(lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so|ld-linux)' | while read -r library; do
     install -m 644 "$library" "$staged/libs/"
+    # A path of dpkg may lack /usr.
+    package=$(dpkg -S "*/$(basename "$(realpath "$library")")" | head -n 1 | cut -d: -f1)
+    install -m 644 "/usr/share/doc/$package/copyright" "$staged/libs/copyright/$package"
   done
   # shellcheck disable=SC2016  # The loader replaces $ORIGIN.
   {
-    patchelf --set-rpath '$ORIGIN' "$staged"/libs/*
+    patchelf --set-rpath '$ORIGIN' "$staged"/libs/*.so*
     patchelf --set-rpath '$ORIGIN/libs' "$module"
   }
 }
@@ -35,7 +39,7 @@ say "What the wheel holds computes with its own libraries"
 temporary=$(mktemp -d)
 /usr/bin/python3 -m zipfile -e build/wheel/*.whl "$temporary"
 env -i PYTHONPATH="$temporary" /usr/bin/python3 - "$temporary" <<'PYTHON'
-import re, sys
+import pathlib, re, sys
 import ricochet
 
 outcome = ricochet.solve({
@@ -44,5 +48,7 @@ outcome = ricochet.solve({
 assert abs(outcome.coefficients.newton - 0.5**0.5) < 1e-15, outcome
 found = {line.split()[-1] for line in open("/proc/self/maps") if re.search(r"lib(grpc|protobuf|absl|flint)", line)}
 assert found and all(path.startswith(sys.argv[1]) for path in found), found
-print(f"{outcome!r}\n{len(found)} libraries of the wheel")
+licences = {path.name for path in pathlib.Path(sys.argv[1]).glob("ricochet/libs/copyright/*")}
+assert any("flint" in name for name in licences), licences
+print(f"{outcome!r}\n{len(found)} libraries of the wheel, {len(licences)} licences")
 PYTHON

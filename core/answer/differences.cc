@@ -279,6 +279,7 @@ Threshold ThresholdBetween(const Course& x, const Course& y, const Course& here)
   if (differ(is(Regime::kSeparating, Regime::kSeparating))) return Threshold::kApproach;
   if (differ(is(Regime::kLocked, Regime::kWedged))) return Threshold::kJamming;
   if (differ([](const Course& course) { return course.slip_before; })) return Threshold::kSlipStart;
+  if (differ([](const Course& course) { return course.Has(EventKind::kEndRecedes); })) return Threshold::kEndRecedes;
   if (differ([](const Course& course) { return course.Has(EventKind::kSlipStops); })) return Threshold::kImpactEnd;
   if (differ(is(Regime::kStickInCompression, Regime::kStickInRestitution))) return Threshold::kFrictionLimit;
   if (differ([](const Course& course) { return course.slip_started; })) return Threshold::kFrictionLimit;

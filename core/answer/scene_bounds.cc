@@ -30,36 +30,81 @@ Bounds PendulumBounds(const Scene& scene) {
   return bounds;
 }
 
-// Widens the range to the value of impact `i`; the first one alone makes the range.
-void Include(int i, double value, Range& range) {
-  range.lower = i == 0 ? value : std::min(range.lower, value);
-  range.upper = i == 0 ? value : std::max(range.upper, value);
-}
-
 absl::Status NotEnded() {
   return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kNotEnded,
                    "bounds.sharp: an elastic or a plastic impact has no end, or none within the steps of the model");
 }
 
+// The hull of impacts of one scene in space with several energetic coefficients.
+class SpatialSample {
+ public:
+  SpatialSample(const SpatialReduction& reduction, const EffectiveCoefficients& effective,
+                absl::FunctionRef<bool()> stopped)
+      : problem_(spatial::MakeProblem(reduction, EnergeticCoefficient{}, effective, spatial::kStudyTolerance)),
+        stopped_(stopped) {}
+
+  const CoefficientBounds& hull() const { return hull_; }
+  Regime regime() const { return regime_; }      // That of the last impact.
+  bool end_recedes() const { return recedes_; }  // In the last impact.
+
+  absl::Status Include(double coefficient) {
+    if (stopped_()) return absl::CancelledError("the bounds were stopped by their caller");
+    problem_.coefficient = coefficient;
+    const spatial::Impact impact = spatial::Solve(problem_);
+    if (!impact.Converged()) return NotEnded();
+    regime_ = impact.regime;
+    recedes_ = std::any_of(impact.events.begin(), impact.events.begin() + impact.event_count,
+                           [](const spatial::Instant& at) { return at.kind == EventKind::kEndRecedes; });
+    Widen(impact.newton, hull_.newton);
+    Widen(impact.poisson, hull_.poisson);
+    Widen(impact.energetic, hull_.energetic);
+    Widen(impact.tangential, hull_.tangential);
+    Widen(impact.tau1, hull_.normal_total_n_s);
+    is_empty_ = false;
+    return absl::OkStatus();
+  }
+
+ private:
+  void Widen(double value, Range& range) const {
+    range.lower = is_empty_ ? value : std::min(range.lower, value);
+    range.upper = is_empty_ ? value : std::max(range.upper, value);
+  }
+
+  spatial::Problem problem_;
+  absl::FunctionRef<bool()> stopped_;
+  CoefficientBounds hull_;
+  Regime regime_ = Regime::kUnspecified;
+  bool recedes_ = false;
+  bool is_empty_ = true;
+};
+
+// The outcome jumps between two coefficients of which the larger one alone makes the end recede, and changes infinitely
+// fast before the jump.
+absl::Status IncludeJump(double low, double high, SpatialSample& sample) {
+  for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
+    const absl::Status included = sample.Include(middle);
+    if (!included.ok()) return included;
+    (sample.end_recedes() ? high : low) = middle;
+  }
+  return absl::OkStatus();
+}
+
 absl::StatusOr<Bounds> SampledBounds(const SpatialReduction& reduction, const EffectiveCoefficients& effective,
                                      absl::FunctionRef<bool()> stopped) {
-  spatial::Problem problem =
-      spatial::MakeProblem(reduction, EnergeticCoefficient{}, effective, spatial::kStudyTolerance);
+  SpatialSample sample(reduction, effective, stopped);
   Bounds bounds;
   bounds.sampled = true;
-  CoefficientBounds& sharp = bounds.sharp;
+  const auto coefficient = [](int i) { return static_cast<double>(i) / (kSpatialImpacts - 1); };
+  bool receded = false;
   for (int i = 0; i < kSpatialImpacts; ++i) {
-    if (stopped()) return absl::CancelledError("the bounds were stopped by their caller");
-    problem.coefficient = static_cast<double>(i) / (kSpatialImpacts - 1);
-    const spatial::Impact impact = spatial::Solve(problem);
-    if (!impact.Converged()) return NotEnded();
-    bounds.regime = impact.regime;
-    Include(i, impact.newton, sharp.newton);
-    Include(i, impact.poisson, sharp.poisson);
-    Include(i, impact.energetic, sharp.energetic);
-    Include(i, impact.tangential, sharp.tangential);
-    Include(i, impact.tau1, sharp.normal_total_n_s);
+    absl::Status status = sample.Include(coefficient(i));
+    bounds.regime = sample.regime();
+    const bool recedes = sample.end_recedes();
+    if (status.ok() && recedes && !receded) status = IncludeJump(coefficient(i - 1), coefficient(i), sample);
+    if (!status.ok()) return status;
+    receded = recedes;
   }
+  bounds.sharp = sample.hull();
   return bounds;
 }
 

@@ -35,6 +35,8 @@ const char* ThresholdText(Threshold threshold) {
       return "the number cannot be lower, or cannot be higher";
     case Threshold::kOther:
       return "the impact takes another course";
+    case Threshold::kEndRecedes:
+      return "the impact only just ends before its end recedes";
     case Threshold::kUnspecified:
       break;
   }

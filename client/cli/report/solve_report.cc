@@ -417,6 +417,8 @@ const char* EventText(EventKind kind) {
       return "slip starts";
     case EventKind::kStickStarts:
       return "stick starts";
+    case EventKind::kEndRecedes:
+      return "the end recedes";
     case EventKind::kUnspecified:
       break;
   }

@@ -50,6 +50,7 @@ enum class Threshold {
   kSpeedTable = 8,      // The approach speed is one that a table by speed lists.
   kDomain = 9,          // The number cannot be lower, or cannot be higher.
   kOther = 10,          // The course of the impact changes in another way.
+  kEndRecedes = 11,     // In space: the impact only just ends before EventKind::kEndRecedes.
 };
 
 // Says where the impact takes another course, so that a derivative holds no longer.

@@ -74,6 +74,7 @@ enum class EventKind {
   kRestitutionEnds = 4,
   kSlipStarts = 5,
   kStickStarts = 6,
+  kEndRecedes = 7,
 };
 
 // The state of the contact once the normal impulse has reached `normal_impulse_n_s`.

@@ -90,13 +90,26 @@ struct Path {
   bool Sticks() const {
     return regime == Regime::kStickInCompression || regime == Regime::kStickInRestitution || regime == Regime::kLocked;
   }
-  void Record(EventKind kind);
+  void Record(EventKind kind) { Record(kind, state); }
+  void Record(EventKind kind, const State<T>& at);
   // True if a difference of v is what rounding leaves of the changes of v so far.
   bool IsRounding(T difference) const {
     return std::fabs(difference) <= T{2} * kEpsilon<T> * problem.steepest * (compression_end.tau + state.tau);
   }
   void SetRegime(Regime of_compression, Regime of_restitution) {
     regime = in_restitution ? of_restitution : of_compression;
+  }
+  // True if the quantity that ends restitution has fallen since `before`, for the first time: v, or the normal work,
+  // which falls where v < 0.
+  bool RecedesSince(const State<T>& before) const {
+    if (!in_restitution || recedes || goal.quantity == Quantity::kImpulse) return false;
+    const T fall = goal.quantity == Quantity::kVelocity ? before.v - state.v : -state.v;
+    return fall > T{0} && !IsRounding(fall);
+  }
+  void RecordReceding(State<T> at) {
+    if (goal.quantity == Quantity::kWork) at.v = T{0};  // Root finding has stopped near it.
+    recedes = true;
+    Record(EventKind::kEndRecedes, at);
   }
   // Ends compression at the present state, and sets the goal of restitution according to the law.
   void StartRestitution();
@@ -113,9 +126,10 @@ struct Path {
   Goal<T> goal = {Quantity::kVelocity, T{0}};
   bool in_restitution = false;
   bool ended = false;
+  bool recedes = false;      // The end of restitution has receded.
   bool stops_short = false;  // The contact is held in restitution, before the goal of its law.
   Regime regime = Regime::kUnspecified;
-  std::array<Instant, 4> events;
+  std::array<Instant, 5> events;
   int event_count = 0;
 };
 
@@ -140,13 +154,13 @@ HWY_INLINE T PhaseGoal<T>::ImpulseToGoal(const Slopes<T>& slopes) const {
 }
 
 template <typename T>
-void Path<T>::Record(EventKind kind) {
+void Path<T>::Record(EventKind kind, const State<T>& at) {
   events[static_cast<size_t>(event_count++)] = {
       .kind = kind,
-      .tau = problem.Impulse(compression_end.tau + state.tau),
-      .f = {problem.Impulse(compression_end.f1 + state.f1), problem.Impulse(compression_end.f2 + state.f2)},
-      .u = {problem.Velocity(state.u1), problem.Velocity(state.u2)},
-      .v = problem.NormalVelocity(state.v)};
+      .tau = problem.Impulse(compression_end.tau + at.tau),
+      .f = {problem.Impulse(compression_end.f1 + at.f1), problem.Impulse(compression_end.f2 + at.f2)},
+      .u = {problem.Velocity(at.u1), problem.Velocity(at.u2)},
+      .v = problem.NormalVelocity(at.v)};
 }
 
 template <typename T>

@@ -41,6 +41,7 @@ void Progress<T>::EndPhase(const Slopes<T>& slopes) {
     EndCompression(slopes);
   } else if (path.goal.quantity == Quantity::kImpulse && path.state.v < T{0}) {
     // Poisson's impulse is spent while the bodies still approach: the path goes on until they do not.
+    if (!path.IsRounding(path.state.v)) path.RecordReceding(path.state);
     path.goal = {Quantity::kVelocity, T{0}};
   } else {
     EndImpact(slopes);

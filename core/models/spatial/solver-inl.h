@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
@@ -166,9 +167,11 @@ std::optional<SlipFrame<T>> Solver<T>::GoOn() {
 template <typename T>
 void Solver<T>::Accept(const StepEnd<T>& end, int64_t steps) {
   steps_ += steps;
-  state_ = end.state;
+  const State<T> before = std::exchange(state_, end.state);
   impact_.errors.SetAfterStep(end.errors);
   if (problem_.may_jam) impact_.errors.NoteGap(impact_.path, std::fabs(end.overshoot));
+  // Steps end where v, or its slope, changes its sign.
+  if (impact_.path.RecedesSince(before)) impact_.path.RecordReceding(before);
   if (!end.reaches_goal) return;
   impact_.errors.SetEventDistance(end.distance_to_goal);
   Slopes<T> slopes = problem_.SlopesAlong(end.e);

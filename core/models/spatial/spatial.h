@@ -52,7 +52,7 @@ struct Impact : ImpactEnd<std::array<double, 2>> {
   int64_t steps = 0;             // series expanded, in all attempts
   int64_t right_hand_sides = 0;  // terms of all series: a Runge-Kutta method would call them right-hand sides
   ImpactErrors errors;           // not below the true errors; infinite if the path has not ended
-  std::array<Instant, 4> events;
+  std::array<Instant, 5> events;
   int event_count = 0;
 };
 

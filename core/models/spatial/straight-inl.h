@@ -10,6 +10,7 @@
 #endif
 
 #include <algorithm>
+#include <utility>
 
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
@@ -33,18 +34,29 @@ struct StraightPiece {
 
 namespace internal {
 
+// The state after a part of a piece, with the friction work of the state before.
 template <typename T>
-void Advance(Progress<T>& impact, const StraightPiece<T>& piece, T length) {
-  State<T>& state = impact.path.state;
-  const T slip = state.Slip();
-  const T v = state.v;
+State<T> StateAfter(const StraightPiece<T>& piece, T length, const State<T>& before) {
+  State<T> state = before;
   state.tau += length;
   state.f1 += piece.f1 * length;
   state.f2 += piece.f2 * length;
   state.u1 += piece.slopes.u1 * length;
   state.u2 += piece.slopes.u2 * length;
   state.v += piece.slopes.v * length;
-  state.normal_work += T{0.5} * length * (v + state.v);
+  state.normal_work += T{0.5} * length * (before.v + state.v);
+  return state;
+}
+
+template <typename T>
+void Advance(Progress<T>& impact, const StraightPiece<T>& piece, T length) {
+  State<T>& state = impact.path.state;
+  const T slip = state.Slip();
+  const State<T> before = std::exchange(state, StateAfter(piece, length, state));
+  if (impact.path.RecedesSince(before)) {
+    const bool passes_zero = impact.path.goal.quantity == Quantity::kWork && before.v > T{0};
+    impact.path.RecordReceding(StateAfter(piece, passes_zero ? -before.v / piece.slopes.v : T{0}, before));
+  }
   switch (piece.motion) {
     case Motion::kSlips: {
       const T next_slip = state.Slip();

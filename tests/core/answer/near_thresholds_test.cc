@@ -223,6 +223,20 @@ TEST(NearThresholds, LieWhereTheCourseChangesInEveryModel) {
   }
 }
 
+// A Runge-Kutta method found that v grows up to 0.03227808 m/s in restitution before it falls, and rises again later.
+TEST(NearThresholds, InSpaceTheEndMayRecede) {
+  const Scene scene = {.system = SpatialContact{.w_per_kg = {1.2367, 0.4119, -1.6898, 3.6464, -2.9784, 3.9852},
+                                                .tangential_m_s = {0.8761, -0.8394},
+                                                .normal_m_s = -0.6307},
+                       .friction = {.kinetic_coefficient = 1.3465},
+                       .restitution = NewtonCoefficient{0.05}};
+  const std::vector<Derivative> found = DerivativesOf(scene, {"restitution.newton"});
+  ASSERT_EQ(found.size(), 1U);
+  ASSERT_TRUE(found[0].above.has_value());
+  EXPECT_EQ(found[0].above->threshold, Threshold::kEndRecedes);
+  EXPECT_NEAR(found[0].above->distance, 0.03227808 / 0.6307 - 0.05, 1e-8);
+}
+
 TEST(NearThresholds, AreRefusedForBounds) {
   const auto refused = LocalSolver().Bounds(
       {.scene = Slip{.w_tt = 3.0, .w_tn = 0.5, .w_nn = 1.5, .u = 1.0, .mu = 0.25, .e = 0.5}.Stated(),

@@ -581,6 +581,44 @@ TEST(SpatialTest, SelfLockingAtFirstEndsOnceSlipHasStopped) {
   EXPECT_LE(Distance(problem, impact, Reference(problem)), 1e-10);
 }
 
+// Keller's equations of one contact were integrated independently by a Runge-Kutta method: in restitution v grows up to
+// the normal impulse 0.45255902972, and falls through 0 at 0.54817552448. Compression ends at 0.35768286173.
+TEST(SpatialTest, TheEndRecedesWhereWhatEndsTheImpactBeginsToFall) {
+  Problem problem = {.w11 = 1.2367,
+                     .w12 = 0.4119,
+                     .w13 = -1.6898,
+                     .w22 = 3.6464,
+                     .w23 = -2.9784,
+                     .w33 = 3.9852,
+                     .u0 = {0.8761, -0.8394},
+                     .v0 = -0.6307,
+                     .mu = 1.3465,
+                     .mu_static = 1.3465};
+  struct Case {
+    RestitutionLaw law;
+    double before, after;  // Coefficients on both sides of the jump.
+    double tau, v;         // Of the event.
+  };
+  const double poisson = 0.54817552448 / 0.35768286173 - 1.0;
+  const Case cases[] = {
+      {RestitutionLaw::kNewton, 0.0511, 0.0512, 0.45255902972, 0.03227808},
+      {RestitutionLaw::kEnergetic, 0.2126, 0.2127, 0.54817552448, 0.0},
+      {RestitutionLaw::kPoisson, poisson - 1e-4, poisson + 1e-4, (1.0 + poisson + 1e-4) * 0.35768286173, -3.3e-5}};
+  for (const auto& [law, before, after, tau, v] : cases) {
+    problem.law = law;
+    problem.coefficient = before;
+    const Impact ends = Solve(problem);
+    EXPECT_EQ(ends.event_count, 3);
+    problem.coefficient = after;
+    const Impact goes_on = Solve(problem);
+    ASSERT_EQ(goes_on.event_count, 5);
+    EXPECT_GT(goes_on.tau1, 10.0 * ends.tau1);
+    EXPECT_EQ(goes_on.events[2].kind, EventKind::kEndRecedes);
+    EXPECT_NEAR(goes_on.events[2].tau, tau, 1e-10);
+    EXPECT_NEAR(goes_on.events[2].v, v, 1e-6);
+  }
+}
+
 TEST(SpatialTest, RankOneIsPlanarAlongItsTangentialDirection) {
   // W = g g^T with g = (0.3, 0.4, 1) is that of a pendulum with a/|b| = 2.
   for (const double mu : {0.5, 3.0}) {
