@@ -6,9 +6,15 @@ import time
 import grpc
 from google.protobuf import text_format
 
-from framework import require, tools
+from framework import require
 
 LIMIT_S = 60  # The longest that a check waits for one answer, whatever the machine.
+
+# Of clients that several servers share: each call is tried again on another of them.
+POLICY = """{"loadBalancingConfig": [{"round_robin": {}}], "methodConfig": [{"name": [{}], "waitForReady": true,
+  "retryPolicy": {"maxAttempts": 5, "initialBackoff": "0.05s", "maxBackoff": "0.5s", "backoffMultiplier": 2,
+                  "retryableStatusCodes": ["UNAVAILABLE"]}}]}"""
+RECONNECT = {f"{kind}_reconnect_backoff_ms": ms for kind, ms in {"initial": 100, "min": 100, "max": 500}.items()}
 
 
 def pb():
@@ -164,5 +170,14 @@ def health(server, seconds=5):
     return {b"\x08\x01": "SERVING", b"\x08\x02": "NOT_SERVING"}.get(answer, answer.hex())
 
 
-__all__ = ["HARD_DURATION", "HERTZ", "PENDULUM", "channel", "cheap", "code_of", "expensive", "details", "health", "linkage",
-           "long_sweep", "pb", "request", "request_class", "require_served", "stub", "tools", "wait_served"]
+def call_until(stop, target, failed):
+    """Calls servers in turn until told to stop; collects the codes of what failed, and returns how often it called."""
+    count = 0
+    with channel(target, enable_retries=1, service_config=POLICY, **RECONNECT) as line:
+        on = stub(line)
+        while not stop.is_set():
+            code = code_of(lambda: on.Solve(cheap(), timeout=30))
+            count += 1
+            if code != grpc.StatusCode.OK:
+                failed.append(code.name)
+    return count

@@ -1,6 +1,7 @@
 """Faults of machines, disks, networks and people: signals, full disks, lost packets, servers that die and return."""
 
 import fcntl
+import functools
 import os
 import random
 import select
@@ -14,7 +15,8 @@ import time
 
 import grpc
 
-from calls import channel, cheap, code_of, expensive, health, long_sweep, require_served, stub, wait_served
+from calls import (call_until, channel, cheap, code_of, expensive, health, long_sweep, require_served, stub,
+                   wait_served)
 from framework import (Group, Process, Server, Skipped, check, command_line, cpu_until_idle, in_threads, main, remove,
                        require, tools, wait_until)
 from http2 import SERVICE, RawConnection
@@ -139,24 +141,9 @@ def sigstop():
 def rolling_restart():
     servers = [Server(drain_grace=0.5), Server(drain_grace=0.5)]
     ports = [server.port for server in servers]
-    policy = """{"loadBalancingConfig": [{"round_robin": {}}], "methodConfig": [{"name": [{}], "waitForReady": true,
-      "retryPolicy": {"maxAttempts": 5, "initialBackoff": "0.05s", "maxBackoff": "0.5s", "backoffMultiplier": 2,
-                      "retryableStatusCodes": ["UNAVAILABLE"]}}]}"""
     target = "ipv4:" + ",".join(server.address for server in servers)
     stop = threading.Event()
     failed = []
-
-    def client():
-        count = 0
-        with channel(target, enable_retries=1, service_config=policy, initial_reconnect_backoff_ms=100,
-                     min_reconnect_backoff_ms=100, max_reconnect_backoff_ms=500) as line:
-            on = stub(line)
-            while not stop.is_set():
-                code = code_of(lambda: on.Solve(cheap(), timeout=30))
-                count += 1
-                if code != grpc.StatusCode.OK:
-                    failed.append(code.name)
-        return count
 
     def restart():
         try:
@@ -168,6 +155,7 @@ def rolling_restart():
         finally:
             stop.set()
 
+    client = functools.partial(call_until, stop, target, failed)
     counts = in_threads([restart, client, client, client])[1:]
     for server in servers:
         server.kill()

@@ -280,13 +280,6 @@ class Group:
             pass  # It was never made.
 
 
-def cpu_while(process, seconds):
-    """CPU seconds that the process uses in a time from now."""
-    before = process.cpu_s()
-    time.sleep(seconds)
-    return process.cpu_s() - before
-
-
 def wait_until(condition, seconds, step=0.05):
     """True as soon as the condition holds, false after this time."""
     deadline = time.monotonic() + seconds

@@ -15,14 +15,10 @@ import time
 
 import grpc
 
-from calls import LIMIT_S, PENDULUM, channel, cheap, code_of, request, stub
+from calls import LIMIT_S, PENDULUM, call_until, channel, cheap, code_of, request, stub
 from framework import (
     Process, Server, Skipped, check, command_line, in_threads, main, require, tools, wait_until)
 
-POLICY = """{"loadBalancingConfig": [{"round_robin": {}}], "methodConfig": [{"name": [{}], "waitForReady": true,
-  "retryPolicy": {"maxAttempts": 5, "initialBackoff": "0.05s", "maxBackoff": "0.5s", "backoffMultiplier": 2,
-                  "retryableStatusCodes": ["UNAVAILABLE"]}}]}"""
-RECONNECT = {f"{kind}_reconnect_backoff_ms": ms for kind, ms in {"initial": 100, "min": 100, "max": 500}.items()}
 POINTS = 3_000_000
 SHARED_POINTS = int(os.environ.get("RICOCHET_POOL_POINTS", POINTS))
 
@@ -159,18 +155,6 @@ def nginx(addresses):
         return [path, "-p", place, "-c", place / "nginx.conf", "-e", "stderr"]
 
     return Proxy("nginx", command, address, {})
-
-
-def call_until(stop, target, failed):
-    count = 0
-    with channel(target, enable_retries=1, service_config=POLICY, **RECONNECT) as line:
-        on = stub(line)
-        while not stop.is_set():
-            code = code_of(lambda: on.Solve(cheap(), timeout=30))
-            count += 1
-            if code != grpc.StatusCode.OK:
-                failed.append(code.name)
-    return count
 
 
 def try_pool(servers, target, server_option):
