@@ -21,8 +21,10 @@ namespace {
 
 using google::protobuf::Descriptor;
 using google::protobuf::DescriptorPool;
+using google::protobuf::DescriptorProto;
 using google::protobuf::EnumDescriptor;
 using google::protobuf::FieldDescriptor;
+using google::protobuf::FieldDescriptorProto;
 using google::protobuf::FileDescriptor;
 using google::protobuf::FileDescriptorProto;
 using google::protobuf::FileDescriptorSet;
@@ -109,9 +111,21 @@ std::vector<std::string> Breaks(const FileDescriptorSet& before, const FileDescr
   return comparison.breaks();
 }
 
+// The file leaves out what a pool adds by itself: the default name in JSON, and that a field is not repeated.
+void ClearDefaults(DescriptorProto& message) {
+  for (FieldDescriptorProto& field : *message.mutable_field()) {
+    field.clear_json_name();
+    if (field.label() == FieldDescriptorProto::LABEL_OPTIONAL) field.clear_label();
+  }
+  for (DescriptorProto& nested : *message.mutable_nested_type()) ClearDefaults(nested);
+}
+
 FileDescriptorSet Protos() {
   FileDescriptorSet files = ProtosWithComments();
-  for (FileDescriptorProto& file : *files.mutable_file()) file.clear_source_code_info();
+  for (FileDescriptorProto& file : *files.mutable_file()) {
+    file.clear_source_code_info();
+    for (DescriptorProto& message : *file.mutable_message_type()) ClearDefaults(message);
+  }
   return files;
 }
 
@@ -183,7 +197,7 @@ TEST(CompatibilityTest, SeesEachKindOfBreak) {
               ElementsAre("a.M.x_m is gone"));
   EXPECT_THAT(BreaksAfter([](File& file) {
                 auto& field = *file.mutable_message_type(0)->mutable_field(0);
-                field.set_label(google::protobuf::FieldDescriptorProto::LABEL_REPEATED);
+                field.set_label(FieldDescriptorProto::LABEL_REPEATED);
               }),
               ElementsAre("a.M.x_m was double x_m and is repeated double x_m"));
   EXPECT_THAT(BreaksAfter([](File& file) { file.mutable_enum_type(0)->mutable_value()->RemoveLast(); }),
