@@ -26,9 +26,7 @@
 namespace ricochet {
 namespace {
 
-using std::chrono::milliseconds;
 using std::chrono::seconds;
-using std::chrono::steady_clock;
 using testing::HasSubstr;
 
 // A connection that says nothing.

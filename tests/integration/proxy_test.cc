@@ -17,9 +17,7 @@
 namespace ricochet {
 namespace {
 
-using std::chrono::milliseconds;
 using std::chrono::seconds;
-using std::chrono::steady_clock;
 
 constexpr char kHost[] = "ricochet.test";
 

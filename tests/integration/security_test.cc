@@ -25,7 +25,6 @@ namespace ricochet {
 namespace {
 
 using absl::StatusCode;
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 using testing::HasSubstr;

@@ -4,7 +4,6 @@
 #include <xmmintrin.h>
 
 #include <cfenv>
-#include <cmath>
 #include <functional>
 #include <ostream>
 #include <string>

@@ -16,7 +16,6 @@ namespace ricochet {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
 
 Outcome Solved(const SolveRequest& request) {
   const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(request);

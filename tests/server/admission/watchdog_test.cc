@@ -16,7 +16,6 @@ namespace ricochet::server {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::steady_clock;
 using testing::ElementsAre;
 
 TEST(WatchdogTest, ReportsEachChangeOnce) {
