@@ -17,6 +17,7 @@
 #include "core/engine/audit_run.h"
 #include "core/models/restitution_law.h"
 #include "tests/support/scenes/known_contacts.h"
+#include "tests/support/scenes/spatial_contact.h"
 
 namespace ricochet::audit {
 namespace {
@@ -363,13 +364,8 @@ TEST(AuditTest, AuditsSpatialContactsWhoseImpulsesHaveNoSquare) {
   // p = (-1, 0, 3/2) in units of 2^-700 N s; mu = 1/2.
   constexpr double kSpeed = 0x1p-300;
   constexpr double kMobility = 0x1p400;
-  const spatial::Problem problem{.w11 = kMobility,
-                                 .w22 = kMobility,
-                                 .w33 = kMobility,
-                                 .u0 = {kSpeed, 0.0},
-                                 .v0 = -kSpeed,
-                                 .mu = 0.5,
-                                 .mu_static = 0.5};
+  const spatial::Problem problem =
+      spatial::Contact({kMobility, 0.0, 0.0, kMobility, 0.0, kMobility}, {kSpeed, 0.0}, -kSpeed, 0.5);
   const AuditReport report = Audit(problem, {{0.0, 0.0}, 0.5 * kSpeed});
   EXPECT_EQ(report[AuditLimit::kCone].verdict, Verdict::kBroken);
   EXPECT_EQ(report[AuditLimit::kCone].excess, 0.25 * (kSpeed / kMobility));
@@ -580,15 +576,8 @@ TEST(AuditTest, RunsASpatialPathToAnImpulseWithinCompression) {
 
 TEST(AuditTest, SearchesTheNearestPointOfARankDeficientSpatialPath) {
   // Nothing moves along t2: W = [2, 0, 1; 0, 0, 0; 1, 0, 3], a plane's contact but for the third row.
-  const spatial::Problem problem{.w11 = 2.0,
-                                 .w13 = 1.0,
-                                 .w33 = 3.0,
-                                 .u0 = {1.0, 0.0},
-                                 .v0 = -1.0,
-                                 .mu = 0.3,
-                                 .mu_static = 0.3,
-                                 .law = RestitutionLaw::kEnergetic,
-                                 .coefficient = 0.6};
+  const spatial::Problem problem = spatial::Contact({2.0, 0.0, 1.0, 0.0, 0.0, 3.0}, {1.0, 0.0}, -1.0, 0.3,
+                                                    {.law = RestitutionLaw::kEnergetic, .coefficient = 0.6});
   const spatial::Impact impact = Solve(problem);
   ASSERT_EQ(impact.w_rank, 2);
   const AuditReport explained = Audit(problem, {impact.u1, impact.v1, 1e-9});
@@ -829,8 +818,7 @@ TEST(AuditTest, APathThatTakesTooManyStepsIsNoVerdict) {
 }
 
 TEST(AuditStopTest, TheSearchOfARankDeficientSpatialPathEndsAtItsNextStep) {
-  const spatial::Problem problem{
-      .w11 = 2.0, .w13 = 1.0, .w33 = 3.0, .u0 = {1.0, 0.0}, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3};
+  const spatial::Problem problem = spatial::Contact({2.0, 0.0, 1.0, 0.0, 0.0, 3.0}, {1.0, 0.0}, -1.0, 0.3);
   int64_t all = 0;
   const auto count = [&all] {
     ++all;

@@ -8,6 +8,7 @@
 
 #include "core/certified/certified.h"
 #include "core/models/planar/planar.h"
+#include "tests/support/scenes/spatial_contact.h"
 
 namespace ricochet {
 namespace {
@@ -61,15 +62,8 @@ TEST(ReferenceVelocityTest, SlipThatGoesOnIsTheWholeImpact) {
 
 TEST(ReferenceVelocityTest, SpaceWithoutCouplingIsAPlane) {
   // Slip along t1 stays there, because nothing couples t2.
-  const spatial::Problem problem = {.w11 = 2.0,
-                                    .w13 = 0.5,
-                                    .w22 = 2.0,
-                                    .w33 = 1.0,
-                                    .u0 = {1.0, 0.0},
-                                    .v0 = -1.0,
-                                    .mu = 0.5,
-                                    .mu_static = 0.5,
-                                    .coefficient = 0.6};
+  const spatial::Problem problem =
+      spatial::Contact({2.0, 0.0, 0.5, 2.0, 0.0, 1.0}, {1.0, 0.0}, -1.0, 0.5, {.coefficient = 0.6});
   const ReferenceVelocity space = ExactSpatial(problem);
   const ReferenceVelocity plane = ExactRigid(
       planar::Problem{.w = {2.0, 0.5, 1.0}, .u0 = 1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5, .coefficient = 0.6},

@@ -15,6 +15,7 @@
 #include "tests/support/claims/planar_claims.h"
 #include "tests/support/claims/sliding_claims.h"
 #include "tests/support/claims/spatial_number_claims.h"
+#include "tests/support/scenes/spatial_contact.h"
 
 namespace ricochet {
 namespace {
@@ -152,19 +153,11 @@ TEST(GrazingTest, TheNormalPartIsRightToTwelveDigitsHoweverSmallItIs) {
 
 // Friction takes v from 1e-154 to the size of slip and back, and Newton's law ends it at e |v0|.
 TEST(GrazingTest, NewtonsLawEndsAJamAtItsOwnScale) {
-  const spatial::Problem problem = {.w11 = 0x1.e9aa9a3b278d4p-4,
-                                    .w12 = 0x1.31f6e85e77883p-5,
-                                    .w13 = -0x1.f35ac2238437p-9,
-                                    .w22 = 0x1.dd431497368c9p-1,
-                                    .w23 = -0x1.50f43cff782bp+0,
-                                    .w33 = 0x1.2e2d020ab2cd8p+1,
-                                    .u0 = {-0x1.fef8e47a43334p-2, -0x1.3335db5cd45e8p-3},
-                                    .v0 = -0x1.427bf4fa1a29ep-511,
-                                    .mu = 0x1.a3ccbdd961befp+4,
-                                    .mu_static = 0x1.a3ccbdd961befp+4,
-                                    .law = RestitutionLaw::kNewton,
-                                    .coefficient = 0x1.cddce1855495cp-1,
-                                    .tolerance = 1e-12};
+  const spatial::Problem problem =
+      spatial::Contact({0x1.e9aa9a3b278d4p-4, 0x1.31f6e85e77883p-5, -0x1.f35ac2238437p-9, 0x1.dd431497368c9p-1,
+                        -0x1.50f43cff782bp+0, 0x1.2e2d020ab2cd8p+1},
+                       {-0x1.fef8e47a43334p-2, -0x1.3335db5cd45e8p-3}, -0x1.427bf4fa1a29ep-511, 0x1.a3ccbdd961befp+4,
+                       {.law = RestitutionLaw::kNewton, .coefficient = 0x1.cddce1855495cp-1, .tolerance = 1e-12});
   const std::optional<spatial::ExactImpact> exact = spatial::SolveExactly(problem);
   ASSERT_TRUE(exact.has_value());
   const spatial::Impact impact = spatial::Solve(problem);
@@ -177,18 +170,9 @@ TEST(GrazingTest, NewtonsLawEndsAJamAtItsOwnScale) {
 TEST(GrazingTest, StraightSlipOfRankOneInSpaceHasAnErrorOfSomeRoundings) {
   const double a[] = {1.0, 0.5, -0.7};
   for (const double mu : {0.1, 0.3, 1.0, 5.0}) {
-    spatial::Problem problem = {.w11 = a[0] * a[0],
-                                .w12 = a[0] * a[1],
-                                .w13 = a[0] * a[2],
-                                .w22 = a[1] * a[1],
-                                .w23 = a[1] * a[2],
-                                .w33 = a[2] * a[2],
-                                .u0 = {a[0], a[1]},
-                                .v0 = a[2],
-                                .mu = mu,
-                                .mu_static = mu,
-                                .coefficient = 0.8,
-                                .tolerance = 1e-12};
+    spatial::Problem problem =
+        spatial::Contact({a[0] * a[0], a[0] * a[1], a[0] * a[2], a[1] * a[1], a[1] * a[2], a[2] * a[2]}, {a[0], a[1]},
+                         a[2], mu, {.coefficient = 0.8, .tolerance = 1e-12});
     EXPECT_LE(spatial::Solve(problem).error_estimate, 1e-14) << mu;
   }
 }

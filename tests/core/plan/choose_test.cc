@@ -14,6 +14,7 @@
 #include "core/plan/perturbed_path.h"
 #include "core/plan/sliding_problem.h"
 #include "tests/support/claims/planned_answer.h"
+#include "tests/support/scenes/known_contacts.h"
 #include "tests/support/scenes/plan_scenes.h"
 
 namespace ricochet {
@@ -356,17 +357,8 @@ TEST(ChooseTest, FrictionThatCancelsInTheEndIsSimulated) {
 }
 
 TEST(ChooseTest, InSpaceTheModelIsGivenTheBudget) {
-  spatial::Problem problem = {.w11 = 1.96,
-                              .w12 = .24,
-                              .w13 = .6,
-                              .w22 = 2.96,
-                              .w23 = -.8,
-                              .w33 = 1.85,
-                              .u0 = {1.0, .6},
-                              .v0 = -1.0,
-                              .mu = .4,
-                              .mu_static = .4,
-                              .coefficient = .6};
+  spatial::Problem problem = TurningContact(1.0, 0.6, 0.4);
+  problem.coefficient = 0.6;
   EXPECT_EQ(ChooseSpatial(problem, {.relative_tolerance = 1e-7}).model_tolerance, 1e-7);
   EXPECT_EQ(ChooseSpatial(problem, {.relative_tolerance = 1e-2}).model_tolerance, 1e-2);
   EXPECT_EQ(ChooseSpatial(problem, {.relative_tolerance = 0.0}).model_tolerance, 1e-12);

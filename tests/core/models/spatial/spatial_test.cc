@@ -16,6 +16,7 @@
 #include "core/models/spatial/solver-inl.h"
 #include "tests/support/claims/spatial_claims.h"
 #include "tests/support/scenes/known_contacts.h"
+#include "tests/support/scenes/spatial_contact.h"
 #include "tests/support/scenes/spatial_scenes.h"
 
 namespace ricochet::spatial {
@@ -459,8 +460,7 @@ TEST(SpatialTest, WithoutFrictionTheThreeLawsAgree) {
 
 // A sphere has a Wtt of 7/2 Wnn in every direction and no coupling, so that slip never turns.
 Problem Sphere(double u1, double u2) {
-  return {
-      .w11 = 3.5, .w22 = 3.5, .w33 = 1.0, .u0 = {u1, u2}, .v0 = -1.0, .mu = 0.1, .mu_static = 0.1, .coefficient = 1.0};
+  return Contact({3.5, 0.0, 0.0, 3.5, 0.0, 1.0}, {u1, u2}, -1.0, 0.1, {.coefficient = 1.0});
 }
 
 TEST(SpatialTest, AFastSphereSlidesAgainstItsWholeImpulse) {
@@ -487,16 +487,8 @@ TEST(SpatialTest, ASlowSphereEndsRolling) {
 
 TEST(SpatialTest, SlipThatStopsStartsAgainAlongTheGrowingDirection) {
   // Slip straight against wtn stops at tau = 0.1/0.7, then slips along +t1 with h = 0.5 - 0.2.
-  Problem problem = {.w11 = 1.0,
-                     .w13 = 0.5,
-                     .w22 = 2.0,
-                     .w33 = 1.0,
-                     .u0 = {-0.1, 0.0},
-                     .v0 = -1.0,
-                     .mu = 0.2,
-                     .mu_static = 0.2,
-                     .law = RestitutionLaw::kPoisson,
-                     .coefficient = 0.0};
+  Problem problem = Contact({1.0, 0.0, 0.5, 2.0, 0.0, 1.0}, {-0.1, 0.0}, -1.0, 0.2,
+                            {.law = RestitutionLaw::kPoisson, .coefficient = 0.0});
   Impact impact = Solve(problem);
   EXPECT_EQ(impact.regime, Regime::kReversalInCompression);
   const double stop = 0.1 / 0.7;
@@ -562,17 +554,7 @@ TEST(SpatialTest, NearMissesAreAsSmoothAsAnyOther) {
 
 TEST(SpatialTest, SelfLockingAtFirstEndsOnceSlipHasStopped) {
   // The contact moves along wtn with mu |wtn| > Wnn, so that friction drives the bodies together until slip stops.
-  const Problem problem = {.w11 = 2.0,
-                           .w12 = 0.1,
-                           .w13 = 1.2,
-                           .w22 = 1.5,
-                           .w23 = 0.2,
-                           .w33 = 1.0,
-                           .u0 = {1.0, 0.3},
-                           .v0 = -1.0,
-                           .mu = 1.0,
-                           .mu_static = 1.0,
-                           .coefficient = 0.5};
+  const Problem problem = Contact({2.0, 0.1, 1.2, 1.5, 0.2, 1.0}, {1.0, 0.3}, -1.0, 1.0, {.coefficient = 0.5});
   const Impact impact = Solve(problem);
   EXPECT_EQ(impact.regime, Regime::kStickInCompression);
   ASSERT_EQ(impact.events[1].kind, EventKind::kSlipStops);
@@ -622,17 +604,7 @@ TEST(SpatialTest, TheEndRecedesWhereWhatEndsTheImpactBeginsToFall) {
 TEST(SpatialTest, RankOneIsPlanarAlongItsTangentialDirection) {
   // W = g g^T with g = (0.3, 0.4, 1) is that of a pendulum with a/|b| = 2.
   for (const double mu : {0.5, 3.0}) {
-    const Problem problem = {.w11 = 0.09,
-                             .w12 = 0.12,
-                             .w13 = 0.3,
-                             .w22 = 0.16,
-                             .w23 = 0.4,
-                             .w33 = 1.0,
-                             .u0 = {-0.3, -0.4},
-                             .v0 = -1.0,
-                             .mu = mu,
-                             .mu_static = mu,
-                             .coefficient = 1.0};
+    const Problem problem = Contact({0.09, 0.12, 0.3, 0.16, 0.4, 1.0}, {-0.3, -0.4}, -1.0, mu, {.coefficient = 1.0});
     const Impact impact = Solve(problem);
     const planar::Impact planar = planar::Solve({.w = {0.25, 0.5, 1.0},
                                                  .u0 = -0.5,
@@ -676,16 +648,7 @@ TEST(SpatialTest, AVerticalPlaneThatIsTurnedIsThePlanarModel) {
 
 TEST(SpatialTest, RankTwoThatSticksIsLocked) {
   // Because wtn = Wtt (1/2, 1/2) and Wnn matches, u and v vanish together once slip has stopped.
-  const Problem problem = {.w11 = 1.0,
-                           .w13 = 0.5,
-                           .w22 = 1.0,
-                           .w23 = 0.5,
-                           .w33 = 0.5,
-                           .u0 = {-1.0, -1.0},
-                           .v0 = -1.0,
-                           .mu = 1.0,
-                           .mu_static = 1.0,
-                           .coefficient = 0.9};
+  const Problem problem = Contact({1.0, 0.0, 0.5, 1.0, 0.5, 0.5}, {-1.0, -1.0}, -1.0, 1.0, {.coefficient = 0.9});
   const Impact impact = Solve(problem);
   EXPECT_EQ(impact.w_rank, 2);
   EXPECT_EQ(impact.regime, Regime::kLocked);
@@ -697,16 +660,7 @@ TEST(SpatialTest, RankTwoThatSticksIsLocked) {
 // A point of an arm with two coordinates: M = (4, 2; 2, 5), t1 = (1, 1), t2 = (1, 2), n = (-1, 2), rates (-1, -2).
 // Wtt^-1 wtn has the length 5, so that a friction of 5 needs all of its cone to hold the contact.
 Problem ArmWithTwoCoordinates(double mu) {
-  return {.w11 = 5.0 / 16.0,
-          .w12 = 7.0 / 16.0,
-          .w13 = 1.0 / 16.0,
-          .w22 = 13.0 / 16.0,
-          .w23 = 11.0 / 16.0,
-          .w33 = 29.0 / 16.0,
-          .u0 = {-3.0, -5.0},
-          .v0 = -3.0,
-          .mu = mu,
-          .mu_static = mu};
+  return Contact({5.0 / 16.0, 7.0 / 16.0, 1.0 / 16.0, 13.0 / 16.0, 11.0 / 16.0, 29.0 / 16.0}, {-3.0, -5.0}, -3.0, mu);
 }
 
 TEST(SpatialTest, AContactThatLocksInRestitutionHasTheCoefficientsThatCameOfIt) {
@@ -753,28 +707,14 @@ TEST(SpatialTest, AContactThatOnlyAllOfFrictionHoldsStandsStill) {
 // Compression ends when slip is below rounding already, so that it is in doubt which comes first; but either way the
 // contact is locked, or starts from rest.
 TEST(SpatialTest, HasAnErrorWhereCompressionEndsNearlyAtRest) {
-  const Problem locks = {.w11 = 0x1.aa6d845335bdep-2,
-                         .w12 = -0x1.76a61a4e8cdd6p-4,
-                         .w13 = -0x1.1bf89b498293dp-3,
-                         .w22 = 0x1.58c01c6628fa2p-1,
-                         .w23 = 0x1.44734d407528p-7,
-                         .w33 = 0x1.7f81f6d89d2e5p-5,
-                         .u0 = {0x1.1a8a10f4b4978p-1, -0x1.46faaa9fe864ep-3},
-                         .v0 = -0x1.75d33fc3b3b89p-3,
-                         .mu = 0x1.820b8a6268ba1p-1,
-                         .mu_static = 0x1.820b8a6268ba1p-1,
-                         .coefficient = 0x1.87f9536ed0205p-1};
-  const Problem restarts = {.w11 = 0x1.ca1795b4c7dd9p-1,
-                            .w12 = -0x1.3442e2586a706p-2,
-                            .w13 = -0x1.147a1f255d788p-4,
-                            .w22 = 0x1.999b50d878952p-2,
-                            .w23 = 0x1.8e6920476e5fap-3,
-                            .w33 = 0x1.a9b0013f4a723p-4,
-                            .u0 = {0x1.10e880c709ab3p-1, -0x1.7337ec9da6e95p-1},
-                            .v0 = -0x1.6a991f3068418p-2,
-                            .mu = 0x1.0caccfb17d37p-1,
-                            .mu_static = 0x1.0caccfb17d37p-1,
-                            .coefficient = 0x1.52321592a568cp-1};
+  const Problem locks = Contact({0x1.aa6d845335bdep-2, -0x1.76a61a4e8cdd6p-4, -0x1.1bf89b498293dp-3,
+                                 0x1.58c01c6628fa2p-1, 0x1.44734d407528p-7, 0x1.7f81f6d89d2e5p-5},
+                                {0x1.1a8a10f4b4978p-1, -0x1.46faaa9fe864ep-3}, -0x1.75d33fc3b3b89p-3,
+                                0x1.820b8a6268ba1p-1, {.coefficient = 0x1.87f9536ed0205p-1});
+  const Problem restarts = Contact({0x1.ca1795b4c7dd9p-1, -0x1.3442e2586a706p-2, -0x1.147a1f255d788p-4,
+                                    0x1.999b50d878952p-2, 0x1.8e6920476e5fap-3, 0x1.a9b0013f4a723p-4},
+                                   {0x1.10e880c709ab3p-1, -0x1.7337ec9da6e95p-1}, -0x1.6a991f3068418p-2,
+                                   0x1.0caccfb17d37p-1, {.coefficient = 0x1.52321592a568cp-1});
   for (Problem problem : {locks, restarts}) {
     problem.tolerance = 1e-9;
     for (const RestitutionLaw law : {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
@@ -816,16 +756,8 @@ TEST(SpatialTest, ErrorsHoldWhereVHardlyRises) {
       };
       const long double compression = impulse_to(0.0L);
       for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-7}) {
-        const Problem problem = {.w22 = 4.0,
-                                 .w23 = 2.0,
-                                 .w33 = 1.0,
-                                 .u0 = {u1, u2},
-                                 .v0 = v0,
-                                 .mu = mu,
-                                 .mu_static = mu,
-                                 .law = RestitutionLaw::kPoisson,
-                                 .coefficient = 1.0,
-                                 .tolerance = tolerance};
+        const Problem problem = Contact({0.0, 0.0, 0.0, 4.0, 2.0, 1.0}, {u1, u2}, v0, mu,
+                                        {.law = RestitutionLaw::kPoisson, .coefficient = 1.0, .tolerance = tolerance});
         const Impact impact = Solve(problem);
         const std::string where = absl::StrCat("mu ", mu, ", u1 ", u1, ", tolerance ", tolerance);
         const auto found = static_cast<long double>(impact.v1);
@@ -852,18 +784,10 @@ TEST(SpatialTest, TheErrorOfTheEnergyHoldsWhereAnIllConditionedContactComesToRes
     const double l21 = entry(1);
     const double l31 = entry(2);
     const double l32 = entry(3);
-    const Problem problem = {.w11 = l11 * l11,
-                             .w12 = l11 * l21,
-                             .w13 = l11 * l31,
-                             .w22 = l21 * l21 + l22 * l22,
-                             .w23 = l21 * l31 + l22 * l32,
-                             .w33 = l31 * l31 + l32 * l32 + l33 * l33,
-                             .u0 = {entry(4), entry(5)},
-                             .v0 = -0.25 - std::fabs(entry(6)),
-                             .mu = 3.0,
-                             .mu_static = 3.0,
-                             .law = RestitutionLaw::kNewton,
-                             .coefficient = 0.0};
+    const Problem problem = Contact({l11 * l11, l11 * l21, l11 * l31, l21 * l21 + l22 * l22, l21 * l31 + l22 * l32,
+                                     l31 * l31 + l32 * l32 + l33 * l33},
+                                    {entry(4), entry(5)}, -0.25 - std::fabs(entry(6)), 3.0,
+                                    {.law = RestitutionLaw::kNewton, .coefficient = 0.0});
     const Impact impact = Solve(problem);
     if (impact.regime != Regime::kStickInCompression) continue;
     ++stuck;
@@ -879,15 +803,8 @@ TEST(SpatialTest, TheErrorOfTheEnergyHoldsWhereAnIllConditionedContactComesToRes
 
 TEST(SpatialTest, ASingularTangentMatrixSticksByTheSmallestForce) {
   // Nothing moves along t2, so that the contact sticks as in the plane of t1 and n.
-  const Problem problem = {.w11 = 1.0,
-                           .w13 = 0.5,
-                           .w33 = 1.0,
-                           .u0 = {0.2, 0.0},
-                           .v0 = -1.0,
-                           .mu = 0.8,
-                           .mu_static = 0.8,
-                           .law = RestitutionLaw::kPoisson,
-                           .coefficient = 0.5};
+  const Problem problem = Contact({1.0, 0.0, 0.5, 0.0, 0.0, 1.0}, {0.2, 0.0}, -1.0, 0.8,
+                                  {.law = RestitutionLaw::kPoisson, .coefficient = 0.5});
   const Impact impact = Solve(problem);
   EXPECT_EQ(impact.regime, Regime::kStickInCompression);
   EXPECT_EQ(impact.w_rank, 2);
@@ -926,33 +843,16 @@ TEST(SpatialTest, ABudgetThatRunsOutIsSaidSo) {
 
 TEST(SpatialTest, AnErrorThatIsNoNumberIsUnknown) {
   // Friction lifts the body at once: its normal impulse is below the least double, and bounds of it exceed the largest.
-  const Problem problem = {.w11 = 2.0,
-                           .w12 = 0.3,
-                           .w13 = 0.6,
-                           .w22 = 3.00000000745058,
-                           .w23 = -0.9,
-                           .w33 = 2.5,
-                           .u0 = {-1.0, 0.6},
-                           .v0 = -7e-138,
-                           .mu = 1e300,
-                           .mu_static = 1e300,
-                           .law = RestitutionLaw::kNewton,
-                           .coefficient = 0.5,
-                           .tolerance = 0.01};
+  const Problem problem = Contact({2.0, 0.3, 0.6, 3.00000000745058, -0.9, 2.5}, {-1.0, 0.6}, -7e-138, 1e300,
+                                  {.law = RestitutionLaw::kNewton, .coefficient = 0.5, .tolerance = 0.01});
   EXPECT_EQ(Solve(problem).error_estimate, std::numeric_limits<double>::infinity());
 }
 
 // One free coordinate in the plane of t1 and n, beside a coordinate that is held and moves. With f = -0.1 tau, u grows
 // by 0.4 tau and v by 0.2 tau, so that v vanishes at tau = 5, where u has grown by 2.
 TEST(SpatialTest, ACoordinateInAPlaneBesideOneThatIsHeldKeepsNoSlipBeside) {
-  Problem problem = {.w11 = 1.0,
-                     .w13 = 0.5,
-                     .w33 = 0.25,
-                     .v0 = -1.0,
-                     .mu = 0.1,
-                     .mu_static = 0.1,
-                     .law = RestitutionLaw::kEnergetic,
-                     .tolerance = 1e-10};
+  Problem problem =
+      Contact({1.0, 0.0, 0.5, 0.0, 0.0, 0.25}, {}, -1.0, 0.1, {.law = RestitutionLaw::kEnergetic, .tolerance = 1e-10});
   const Impact from_rest = Solve(problem);
   EXPECT_NEAR(from_rest.u1[0], 2.0, from_rest.errors.u);
   EXPECT_LT(from_rest.errors.u, 1e-14);
