@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +19,8 @@
 #include "ricochet/solver.h"
 #include "tests/support/oracles/certificates.h"
 #include "tests/support/oracles/ulp.h"
+#include "tests/support/scenes/laws_by_name.h"
+#include "tests/support/scenes/linkage_rows.h"
 #include "tests/support/scenes/pendulum_scenes.h"
 #include "tests/support/scenes/planar_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
@@ -31,13 +32,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // --- Against the vectors ---
-
-Restitution ToRestitution(const VectorRow& row) {
-  const double value = Number(row, "coefficient");
-  if (row.at("law") == "newton") return NewtonCoefficient{value};
-  if (row.at("law") == "poisson") return PoissonCoefficient{value};
-  return EnergeticCoefficient{value};
-}
 
 using Columns = std::vector<std::pair<const char*, const char*>>;
 
@@ -80,7 +74,7 @@ TEST(CertifiedVectorsTest, EveryDigitOfEveryPendulumIsThatOfTheIndependentProgra
     const Scene scene = {
         .system = Pendulum{Number(row, "j0"), Number(row, "a"), Number(row, "b"), Number(row, "omega_minus")},
         .friction = {.kinetic_coefficient = Number(row, "mu")},
-        .restitution = ToRestitution(row)};
+        .restitution = RestitutionOf(row.at("law"), Number(row, "coefficient"))};
     ExpectDigitsOf(row, scene, kPendulumColumns);
     const Certificate certificate = *CertifySolve(scene, {25}, Never);
     const std::string& lost = row.at("energy_dissipated");
@@ -110,28 +104,9 @@ TEST(CertifiedVectorsTest, EveryDigitOfEveryContactIsThatOfTheIndependentProgram
     const Scene scene = {.system = PlanarContact{Number(row, "wtt"), Number(row, "wtn"), Number(row, "wnn"),
                                                  Number(row, "u0"), Number(row, "v0")},
                          .friction = {.kinetic_coefficient = Number(row, "mu")},
-                         .restitution = ToRestitution(row)};
+                         .restitution = RestitutionOf(row.at("law"), Number(row, "coefficient"))};
     ExpectDigitsOf(row, scene, kPlanarColumns);
   }
-}
-
-std::vector<std::string> Split(const std::string& list) {
-  std::vector<std::string> parts;
-  std::istringstream stream(list);
-  for (std::string part; std::getline(stream, part, ';');) parts.push_back(part);
-  return parts;
-}
-
-Scene ChainOf(const VectorRow& row) {
-  const std::vector<std::string> shapes = Split(row.at("links_length_mass_com_inertia"));
-  const std::vector<std::string> thetas = Split(row.at("theta"));
-  const std::vector<std::string> rates = Split(row.at("rate"));
-  Linkage linkage;
-  for (size_t i = 0; i < thetas.size(); ++i) {
-    const auto shape = [&](size_t k) { return std::stod(shapes[4 * i + k]); };
-    linkage.links.push_back({shape(0), shape(1), shape(2), shape(3), std::stod(thetas[i]), std::stod(rates[i])});
-  }
-  return {.system = linkage, .friction = {.kinetic_coefficient = Number(row, "mu")}, .restitution = ToRestitution(row)};
 }
 
 TEST(CertifiedVectorsTest, EveryDigitOfEveryLinkageIsThatOfTheIndependentProgram) {
@@ -146,7 +121,7 @@ TEST(CertifiedVectorsTest, EveryDigitOfEveryLinkageIsThatOfTheIndependentProgram
                     {"newton", "coefficients.newton"},
                     {"poisson", "coefficients.poisson"},
                     {"energetic", "coefficients.energetic"}});
-    const std::vector<std::string> rates = Split(row.at("rate_after"));
+    const std::vector<std::string> rates = SplitCells(row.at("rate_after"), ';');
     const Certificate certificate = *CertifySolve(ChainOf(row), {25}, Never);
     for (size_t k = 0; k < rates.size(); ++k) {
       const std::string path = "rates_after_rad_s[" + std::to_string(k) + "]";

@@ -6,45 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ricochet/solver.h"
+#include "tests/support/scenes/linkage_rows.h"
 #include "tests/support/scenes/vectors.h"
 
 namespace ricochet {
 namespace {
 
 constexpr double kTolerance = 1e-12;
-
-std::vector<double> Numbers(const std::string& list) {
-  std::vector<double> numbers;
-  std::istringstream stream(list);
-  for (std::string number; std::getline(stream, number, ';');) numbers.push_back(std::stod(number));
-  return numbers;
-}
-
-Restitution MakeRestitution(const std::string& law, double value) {
-  if (law == "newton") return NewtonCoefficient{value};
-  if (law == "poisson") return PoissonCoefficient{value};
-  return EnergeticCoefficient{value};
-}
-
-Scene SceneOf(const VectorRow& row) {
-  const std::vector<double> shapes = Numbers(row.at("links_length_mass_com_inertia"));
-  const std::vector<double> thetas = Numbers(row.at("theta"));
-  const std::vector<double> rates = Numbers(row.at("rate"));
-  Linkage linkage;
-  for (size_t i = 0; i < thetas.size(); ++i) {
-    const double* shape = shapes.data() + 4 * i;
-    linkage.links.push_back({shape[0], shape[1], shape[2], shape[3], thetas[i], rates[i]});
-  }
-  return {.system = linkage,
-          .friction = {.kinetic_coefficient = Number(row, "mu")},
-          .restitution = MakeRestitution(row.at("law"), Number(row, "coefficient"))};
-}
 
 double Largest(const std::vector<double>& numbers) {
   double largest = 0.0;
@@ -58,10 +31,10 @@ TEST(LinkageVectorsTest, EveryRowHolds) {
   for (size_t i = 0; i < rows.size(); ++i) {
     SCOPED_TRACE(i);
     const VectorRow& row = rows[i];
-    const absl::StatusOr<SolveResponse> response = LocalSolver().Solve({.scene = SceneOf(row)});
+    const absl::StatusOr<SolveResponse> response = LocalSolver().Solve({.scene = ChainOf(row)});
     ASSERT_TRUE(response.ok()) << response.status();
     const Outcome& outcome = response->outcome;
-    const std::vector<double> rates = Numbers(row.at("rate_after"));
+    const std::vector<double> rates = NumbersIn(row.at("rate_after"));
     ASSERT_EQ(outcome.rates_after_rad_s.size(), rates.size());
     for (size_t k = 0; k < rates.size(); ++k) {
       EXPECT_NEAR(outcome.rates_after_rad_s[k], rates[k], kTolerance * std::max(Largest(rates), 1.0));

@@ -14,6 +14,7 @@
 #include "core/rows/column.h"
 #include "ricochet/solver.h"
 #include "tests/support/scenes/batch_table.h"
+#include "tests/support/scenes/laws_by_name.h"
 #include "tests/support/scenes/vectors.h"
 
 namespace ricochet {
@@ -113,9 +114,7 @@ Scene SceneOf(const BatchTable& contacts, const std::string& law, size_t i) {
   const auto at = [&](size_t k) { return contacts.in[k][i]; };
   Scene scene = {.system = PlanarContact{at(0), at(1), at(2), at(3), at(4)}, .friction = contacts.setup.scene.friction};
   scene.friction.kinetic_coefficient = at(5);
-  if (law == "newton") scene.restitution = NewtonCoefficient{at(6)};
-  if (law == "poisson") scene.restitution = PoissonCoefficient{at(6)};
-  if (law == "energetic") scene.restitution = EnergeticCoefficient{at(6)};
+  scene.restitution = RestitutionOf(law, at(6));
   return scene;
 }
 

@@ -11,6 +11,7 @@
 
 #include "ricochet/solver.h"
 #include "tests/support/scenes/batch_table.h"
+#include "tests/support/scenes/laws_by_name.h"
 
 namespace ricochet {
 namespace {
@@ -21,12 +22,6 @@ struct Case {
   std::optional<double> static_coefficient;
   std::vector<Effect> excluded;
 };
-
-Restitution RestitutionBy(const std::string& law, double value) {
-  if (law == "newton") return NewtonCoefficient{value};
-  if (law == "poisson") return PoissonCoefficient{value};
-  return EnergeticCoefficient{value};
-}
 
 // Rows of inertia, a, b, omega, mu and the coefficient: everyday ones and extreme ones, locked, separating, without
 // friction or with so little that simpler models serve, and invalid ones.
@@ -53,7 +48,7 @@ class Rows {
 Scene SceneOf(const std::vector<double>& row, const Case& with) {
   return {.system = Pendulum{row[0], row[1], row[2], row[3]},
           .friction = {.kinetic_coefficient = row[4], .static_coefficient = with.static_coefficient},
-          .restitution = RestitutionBy(with.law, row[5])};
+          .restitution = RestitutionOf(with.law, row[5])};
 }
 
 class PendulumBatch : public testing::TestWithParam<Case> {};

@@ -10,6 +10,7 @@
 
 #include "ricochet/solver.h"
 #include "tests/support/scenes/batch_table.h"
+#include "tests/support/scenes/laws_by_name.h"
 
 namespace ricochet {
 namespace {
@@ -62,9 +63,7 @@ Scene SceneOf(const std::vector<double>& row, const Case& with) {
     scene.system = BodyPair{PlanarPair{BodyFrom(row.data()), BodyFrom(row.data() + 7)}};
   }
   scene.friction.kinetic_coefficient = rest[0];
-  if (with.law == "newton") scene.restitution = NewtonCoefficient{rest[1]};
-  if (with.law == "poisson") scene.restitution = PoissonCoefficient{rest[1]};
-  if (with.law == "energetic") scene.restitution = EnergeticCoefficient{rest[1]};
+  scene.restitution = RestitutionOf(with.law, rest[1]);
   return scene;
 }
 

@@ -16,10 +16,10 @@ namespace ricochet {
 
 using VectorRow = std::map<std::string, std::string>;
 
-inline std::vector<std::string> SplitCells(const std::string& line) {
+inline std::vector<std::string> SplitCells(const std::string& line, char separator = ',') {
   std::vector<std::string> cells;
   std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  for (std::string cell; std::getline(stream, cell, separator);) cells.push_back(cell);
   return cells;
 }
 

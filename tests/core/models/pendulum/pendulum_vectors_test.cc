@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "core/models/pendulum/pendulum.h"
-#include "core/models/restitution_law.h"
 #include "tests/support/oracles/arb.h"
+#include "tests/support/scenes/laws_by_name.h"
 #include "tests/support/scenes/vectors.h"
 
 namespace ricochet::pendulum {
@@ -17,9 +16,6 @@ namespace {
 using Row = VectorRow;
 
 Problem ProblemOf(const Row& row) {
-  const std::map<std::string, RestitutionLaw> laws = {{"newton", RestitutionLaw::kNewton},
-                                                      {"poisson", RestitutionLaw::kPoisson},
-                                                      {"energetic", RestitutionLaw::kEnergetic}};
   const double mu = Number(row, "mu");
   return {.inertia = Number(row, "j0"),
           .a = Number(row, "a"),
@@ -27,7 +23,7 @@ Problem ProblemOf(const Row& row) {
           .omega_minus = Number(row, "omega_minus"),
           .mu = mu,
           .mu_static = mu,
-          .law = laws.at(row.at("law")),
+          .law = LawOf(row.at("law")),
           .coefficient = Number(row, "coefficient")};
 }
 

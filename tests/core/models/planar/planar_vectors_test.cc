@@ -5,28 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "core/models/planar/planar.h"
-#include "core/models/restitution_law.h"
+#include "tests/support/scenes/laws_by_name.h"
 #include "tests/support/scenes/vectors.h"
 
 namespace ricochet::planar {
 namespace {
 
 Problem ProblemOf(const VectorRow& row) {
-  const std::map<std::string, RestitutionLaw> laws = {{"newton", RestitutionLaw::kNewton},
-                                                      {"poisson", RestitutionLaw::kPoisson},
-                                                      {"energetic", RestitutionLaw::kEnergetic}};
   const double mu = Number(row, "mu");
   return {.w = {Number(row, "wtt"), Number(row, "wtn"), Number(row, "wnn")},
           .u0 = Number(row, "u0"),
           .v0 = Number(row, "v0"),
           .mu = mu,
           .mu_static = mu,
-          .law = laws.at(row.at("law")),
+          .law = LawOf(row.at("law")),
           .coefficient = Number(row, "coefficient")};
 }
 

@@ -5,49 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "core/models/restitution_law.h"
 #include "core/models/spatial/spatial.h"
-#include "tests/support/paths.h"
+#include "tests/support/scenes/laws_by_name.h"
+#include "tests/support/scenes/vectors.h"
 
 namespace ricochet::spatial {
 namespace {
 
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> Split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-std::vector<Row> ReadRows() {
-  std::ifstream file(TestDataPath("spatial.csv"));
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> names = Split(line);
-  std::vector<Row> rows;
-  while (std::getline(file, line)) {
-    const std::vector<std::string> cells = Split(line);
-    Row& row = rows.emplace_back();
-    for (size_t i = 0; i < names.size(); ++i) row[names[i]] = cells.at(i);
-  }
-  return rows;
-}
-
-double Number(const Row& row, const char* column) { return std::strtod(row.at(column).c_str(), nullptr); }
+using Row = VectorRow;
 
 Problem ProblemOf(const Row& row, double tolerance) {
-  const std::map<std::string, RestitutionLaw> laws = {{"newton", RestitutionLaw::kNewton},
-                                                      {"poisson", RestitutionLaw::kPoisson},
-                                                      {"energetic", RestitutionLaw::kEnergetic}};
   const double mu = Number(row, "mu");
   return {.w11 = Number(row, "w11"),
           .w12 = Number(row, "w12"),
@@ -59,7 +30,7 @@ Problem ProblemOf(const Row& row, double tolerance) {
           .v0 = Number(row, "v0"),
           .mu = mu,
           .mu_static = mu,
-          .law = laws.at(row.at("law")),
+          .law = LawOf(row.at("law")),
           .coefficient = Number(row, "coefficient"),
           .tolerance = tolerance};
 }
@@ -88,7 +59,7 @@ struct Column {
 class SpatialVectorsTest : public testing::TestWithParam<double> {};
 
 TEST_P(SpatialVectorsTest, EveryRowIsWithinTheToleranceAskedAndTheEstimate) {
-  const std::vector<Row> rows = ReadRows();
+  const std::vector<Row> rows = ReadVectors("spatial.csv");
   ASSERT_EQ(rows.size(), 48U);
   double worst = 0.0;
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -106,7 +77,7 @@ TEST_P(SpatialVectorsTest, EveryRowIsWithinTheToleranceAskedAndTheEstimate) {
 }
 
 TEST_P(SpatialVectorsTest, ImpulsesAndWorksAreWithinTenTimesTheTolerance) {
-  const std::vector<Row> rows = ReadRows();
+  const std::vector<Row> rows = ReadVectors("spatial.csv");
   for (size_t i = 0; i < rows.size(); ++i) {
     const Impact impact = Solve(ProblemOf(rows[i], GetParam()));
     const double impulse = 10.0 * GetParam() * Number(rows[i], "tau1");
