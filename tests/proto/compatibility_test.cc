@@ -111,11 +111,13 @@ std::vector<std::string> Breaks(const FileDescriptorSet& before, const FileDescr
   return comparison.breaks();
 }
 
-// The file leaves out what a pool adds by itself: the default name in JSON, and that a field is not repeated.
+// The file leaves out what a pool adds by itself: the default name in JSON, that a field is not repeated, and whether a
+// named type is a message or an enum.
 void ClearDefaults(DescriptorProto& message) {
   for (FieldDescriptorProto& field : *message.mutable_field()) {
     field.clear_json_name();
     if (field.label() == FieldDescriptorProto::LABEL_OPTIONAL) field.clear_label();
+    if (field.has_type_name()) field.clear_type();
   }
   for (DescriptorProto& nested : *message.mutable_nested_type()) ClearDefaults(nested);
 }
