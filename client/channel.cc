@@ -12,6 +12,7 @@
 #include "absl/synchronization/mutex.h"
 #include "client/credentials.h"
 #include "client/server_address.h"
+#include "core/base/try.h"
 
 namespace ricochet {
 namespace {
@@ -65,12 +66,11 @@ absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const C
   arguments.SetPointerWithVtable("ricochet.part", &parts, &kPart);
   std::vector<std::shared_ptr<grpc::Channel>> channels;
   for (const std::string& target : Targets(options)) {
-    const auto credentials = MakeChannelCredentials(options.security, target);
-    if (!credentials.ok()) return credentials.status();
+    RICOCHET_TRY(const auto credentials, MakeChannelCredentials(options.security, target));
     grpc::ChannelArguments own = arguments;
     // A proxy of the environment would look for this address on its own host, and could read a token.
     if (IsLoopbackAddress(target)) own.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
-    channels.push_back(grpc::CreateCustomChannel(target, *credentials, own));
+    channels.push_back(grpc::CreateCustomChannel(target, credentials, own));
   }
   return channels;
 }

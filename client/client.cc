@@ -22,6 +22,7 @@
 #include "client/final_failure.h"
 #include "client/sweep_fan_out.h"
 #include "client/sweep_reader.h"
+#include "core/base/try.h"
 #include "core/types/check_rows.h"
 #include "core/types/grid.h"
 #include "proto/wire/audit.h"
@@ -144,9 +145,8 @@ struct Client::Connection {
   template <typename Request, typename WireRequest, typename WireResponse>
   auto Ask(Method<WireRequest, WireResponse> method, const Request& request, const CallOptions& given)
       -> absl::StatusOr<decltype(FromProto(WireResponse()))> {
-    const absl::StatusOr<WireResponse> wire = AskWire(method, ToProto(request), given);
-    if (!wire.ok()) return wire.status();
-    auto response = FromProto(*wire);
+    RICOCHET_TRY(const WireResponse wire, AskWire(method, ToProto(request), given));
+    auto response = FromProto(wire);
     if constexpr (requires { CheckShape(request, response); }) {
       if (absl::Status misshaped = CheckShape(request, response); !misshaped.ok()) return misshaped;
     }
@@ -192,9 +192,8 @@ struct Client::Connection {
 };
 
 absl::StatusOr<Client> Client::Connect(const ClientOptions& options) {
-  auto channels = MakeChannels(options);
-  if (!channels.ok()) return channels.status();
-  return Client(std::make_shared<Connection>(options, *std::move(channels)));
+  RICOCHET_TRY(auto channels, MakeChannels(options));
+  return Client(std::make_shared<Connection>(options, std::move(channels)));
 }
 
 absl::StatusOr<SolveResponse> Client::DoSolve(const SolveRequest& request, const CallOptions& options) const {
@@ -237,9 +236,8 @@ absl::StatusOr<BatchSession> Client::DoOpenBatches(const BatchSetup& setup, cons
     return connection->StubFor(server, *context).SolveBatches(context);
   };
   auto ask_most_rows = [connection = connection_, setup, options]() -> absl::StatusOr<size_t> {
-    const absl::StatusOr<InfoResponse> info = connection->Ask(&Stub::Info, InfoRequest(), options);
-    if (!info.ok()) return info.status();
-    return RowsOfAPiece(setup, info->limits);
+    RICOCHET_TRY(const InfoResponse info, connection->Ask(&Stub::Info, InfoRequest(), options));
+    return RowsOfAPiece(setup, info.limits);
   };
   const ClientOptions& own = connection_->options;
   return BatchSession(std::make_unique<RemoteBatches>(setup, std::move(start), std::move(ask_most_rows),
@@ -266,12 +264,9 @@ absl::StatusOr<BatchResponse> Client::DoSolveBatch(const BatchSetup& setup, cons
 
 absl::StatusOr<BatchResponse> Client::SolveInPieces(const BatchSetup& setup, const BatchRows& rows,
                                                     const CallOptions& options) const {
-  absl::StatusOr<BatchSession> session =
-      DoOpenBatches(setup, WithDeadline(options, connection_->options.sweep_deadline));
-  if (!session.ok()) return session.status();
-  absl::StatusOr<BatchSummary> summary = session->Solve(rows);
-  if (!summary.ok()) return summary.status();
-  return BatchResponse{.summary = *std::move(summary), .engine = session->engine()};
+  RICOCHET_TRY(BatchSession session, DoOpenBatches(setup, WithDeadline(options, connection_->options.sweep_deadline)));
+  RICOCHET_TRY(BatchSummary summary, session.Solve(rows));
+  return BatchResponse{.summary = std::move(summary), .engine = session.engine()};
 }
 
 SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& options) const {

@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/server_address.h"
 #include "client/tls_files.h"
+#include "core/base/try.h"
 
 namespace ricochet {
 namespace {
@@ -22,9 +23,8 @@ bool IsToken(const std::string& text) {
 
 absl::StatusOr<std::string> ReadToken(const std::string& file) {
   constexpr char kOption[] = "security.token_file";
-  const absl::StatusOr<std::string> text = ReadSecurityFile(file, kOption);
-  if (!text.ok()) return text.status();
-  std::string token(absl::StripAsciiWhitespace(*text));
+  RICOCHET_TRY(const std::string text, ReadSecurityFile(file, kOption));
+  std::string token(absl::StripAsciiWhitespace(text));
   if (IsToken(token)) return token;
   return InvalidRequest({{kOption, absl::StrCat("= ", file, ": must hold a token of visible ASCII characters only")}});
 }
@@ -54,10 +54,8 @@ class TokenHeader final : public grpc::MetadataCredentialsPlugin {
 };
 
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeTls(const SecurityOptions& options) {
-  const absl::StatusOr<TlsFiles> files = ReadTlsFiles(options);
-  if (!files.ok()) return files.status();
-  return grpc::SslCredentials(
-      {.pem_root_certs = files->ca, .pem_private_key = files->key, .pem_cert_chain = files->cert});
+  RICOCHET_TRY(const TlsFiles files, ReadTlsFiles(options));
+  return grpc::SslCredentials({.pem_root_certs = files.ca, .pem_private_key = files.key, .pem_cert_chain = files.cert});
 }
 
 // Connects without encryption. With a token gRPC itself breaks off a connection that leaves this host.
@@ -101,9 +99,7 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeChannelCredentials
   const bool has_token = !options.token.empty() || !options.token_file.empty();
   std::shared_ptr<grpc::ChannelCredentials> channel = MakePlain(has_token, target);
   if (options.tls) {
-    auto tls = MakeTls(options);
-    if (!tls.ok()) return tls.status();
-    channel = *std::move(tls);
+    RICOCHET_TRY(channel, MakeTls(options));
   }
   if (!has_token) return channel;
   if (!options.token_file.empty()) {

@@ -4,6 +4,7 @@
 
 #include "client/channel.h"
 #include "client/final_failure.h"
+#include "core/base/try.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "proto/wire/status.h"
 
@@ -30,10 +31,9 @@ static absl::StatusOr<Health> AskHealth(const std::shared_ptr<grpc::Channel>& ch
 }
 
 absl::StatusOr<Health> CheckHealth(const ClientOptions& options, const std::string& service) {
-  const auto channels = MakeChannels(options);
-  if (!channels.ok()) return channels.status();
+  RICOCHET_TRY(const auto channels, MakeChannels(options));
   absl::StatusOr<Health> health;
-  for (const std::shared_ptr<grpc::Channel>& channel : *channels) {
+  for (const std::shared_ptr<grpc::Channel>& channel : channels) {
     health = AskHealth(channel, options.deadline, service);
     if (!absl::IsUnavailable(health.status())) break;
   }

@@ -10,6 +10,7 @@
 #include "client/call_context.h"
 #include "client/chunk_checker.h"
 #include "client/stream_call.h"
+#include "core/base/try.h"
 #include "proto/wire/status.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/error.h"
@@ -169,11 +170,10 @@ absl::Status SweepFanOut::Compute(const RangeScheduler::Task& task, Server& serv
       {.stop = task.stop.get_token(), .deadline = options_.deadline});
   v1::SweepResponse message;
   while (call.Read(message)) {
-    absl::StatusOr<SweepChunk> chunk = checker.Accept(message);
-    if (!chunk.ok()) return chunk.status();
+    RICOCHET_TRY(SweepChunk chunk, checker.Accept(message));
     server.attempts().Succeeded();
     const std::lock_guard lock(mutex_);
-    if (!scheduler_.Put(task, *std::move(chunk))) break;
+    if (!scheduler_.Put(task, std::move(chunk))) break;
     has_begun_ = true;
     is_lost_[server.number()] = false;
     arrived_.notify_one();

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/try.h"
 #include "server/base/port_file.h"
 #include "server/health/self_test.h"
 #include "server/health/serving_check.h"
@@ -93,9 +94,8 @@ Server::Server(const Options& options, std::shared_ptr<Auth> auth, const Log& lo
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, const Log& log) {
   Options fitting = options;
   fitting.connections = LimitsOfConnections(options, log);
-  absl::StatusOr<std::shared_ptr<Auth>> auth = OpenAuth(options, log);
-  if (!auth.ok()) return auth.status();
-  std::unique_ptr<Server> server(new Server(fitting, *std::move(auth), log));
+  RICOCHET_TRY(std::shared_ptr<Auth> auth, OpenAuth(options, log));
+  std::unique_ptr<Server> server(new Server(fitting, std::move(auth), log));
   absl::Status status = TestSolver(server->solver_);
   if (status.ok()) status = server->Listen();
   if (status.ok()) status = server->OpenMetrics();
@@ -125,17 +125,13 @@ absl::Status Server::Listen() {
                                  .connections = options_.connections,
                                  .tls = options_.tls,
                                  .auth = auth_};
-  absl::StatusOr<std::unique_ptr<Endpoint>> endpoint = Endpoint::Open(settings, builder, log_);
-  if (!endpoint.ok()) return endpoint.status();
-  endpoint_ = *std::move(endpoint);
+  RICOCHET_TRY(endpoint_, Endpoint::Open(settings, builder, log_));
   SetServing(true);
   Watch();
   LogAddresses("listening", *endpoint_);
   if (options_.reflection.empty()) return absl::OkStatus();
   settings.addresses = options_.reflection;
-  absl::StatusOr<std::unique_ptr<Reflection>> reflection = Reflection::Open(settings, log_);
-  if (!reflection.ok()) return reflection.status();
-  reflection_ = *std::move(reflection);
+  RICOCHET_TRY(reflection_, Reflection::Open(settings, log_));
   LogAddresses("reflection", reflection_->endpoint());
   return absl::OkStatus();
 }
@@ -177,10 +173,7 @@ absl::Status Server::OpenMetrics() {
   metrics.AddCounter("ricochet_log_lines_dropped_total", "Lines that the log could not take.",
                      [this] { return static_cast<double>(log_.dropped()); });
   if (!options_.metrics.has_value()) return absl::OkStatus();
-  absl::StatusOr<std::unique_ptr<MetricsPage>> page =
-      MetricsPage::Open(*options_.metrics, metrics, [this] { return serving_.load(); });
-  if (!page.ok()) return page.status();
-  metrics_page_ = *std::move(page);
+  RICOCHET_TRY(metrics_page_, MetricsPage::Open(*options_.metrics, metrics, [this] { return serving_.load(); }));
   log_.Write(LogLevel::kInfo, "metrics", {{"address", ToString(metrics_page_->address())}});
   return absl::OkStatus();
 }

@@ -14,6 +14,7 @@
 #include "client/cli/report/audit_plot.h"
 #include "client/cli/report/audit_report.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -44,18 +45,16 @@ struct AuditOptions {
 
 absl::StatusOr<Observed> ReadObserved(const AuditOptions& options) {
   if (options.rate.has_value()) {
-    const absl::StatusOr<std::vector<double>> rates = ParseNumbers(*options.rate, "--observed-rate");
-    if (!rates.ok()) return rates.status();
-    return Observed(ObservedRates{{rates->begin(), rates->end()}});
+    RICOCHET_TRY(const std::vector<double> rates, ParseNumbers(*options.rate, "--observed-rate"));
+    return Observed(ObservedRates{{rates.begin(), rates.end()}});
   }
   if (!options.velocity.has_value()) {
     return absl::InvalidArgumentError(
         "no observation: give --observed-velocity T,N, --observed-rate X or --data FILE.csv");
   }
-  const absl::StatusOr<std::vector<double>> numbers = ParseNumbers(*options.velocity, "--observed-velocity");
-  if (!numbers.ok()) return numbers.status();
+  RICOCHET_TRY(const std::vector<double> numbers, ParseNumbers(*options.velocity, "--observed-velocity"));
   return Observed(
-      ContactVelocity{.tangential_m_s = {numbers->begin(), numbers->end() - 1}, .normal_m_s = numbers->back()});
+      ContactVelocity{.tangential_m_s = {numbers.begin(), numbers.end() - 1}, .normal_m_s = numbers.back()});
 }
 
 absl::StatusOr<double> ReadUncertainty(const AuditOptions& options) {
@@ -63,24 +62,21 @@ absl::StatusOr<double> ReadUncertainty(const AuditOptions& options) {
 }
 
 absl::Status AuditOne(const AuditOptions& options, const Solver& solver, const Scene& scene) {
-  const absl::StatusOr<Observed> observed = ReadObserved(options);
-  if (!observed.ok()) return observed.status();
-  const absl::StatusOr<double> uncertainty = ReadUncertainty(options);
-  if (!uncertainty.ok()) return uncertainty.status();
-  const absl::StatusOr<AuditResponse> response =
-      solver.Audit({.scene = scene, .observed = *observed, .velocity_uncertainty_m_s = *uncertainty});
-  if (!response.ok()) return response.status();
+  RICOCHET_TRY(const Observed observed, ReadObserved(options));
+  RICOCHET_TRY(const double uncertainty, ReadUncertainty(options));
+  RICOCHET_TRY(const AuditResponse response,
+               solver.Audit({.scene = scene, .observed = observed, .velocity_uncertainty_m_s = uncertainty}));
   const size_t directions = TangentialDirections(scene.system);
   absl::Status written = WriteAnswer(
-      options.common, *response, [&] { return AuditText(*response, directions); },
-      [&] { return CsvOf({AuditCsvRow(response->report, directions)}); });
+      options.common, response, [&] { return AuditText(response, directions); },
+      [&] { return CsvOf({AuditCsvRow(response.report, directions)}); });
   if (!written.ok()) return written;
   if (!options.data.picture.file.empty()) {
     AuditPlot plot;
-    plot.Add(response->report);
+    plot.Add(response.report);
     if (absl::Status status = DrawPicture(plot.Make(), options.data.picture); !status.ok()) return status;
   }
-  if (!options.data.strict || response->report.admissible) return absl::OkStatus();
+  if (!options.data.strict || response.report.admissible) return absl::OkStatus();
   return absl::FailedPreconditionError("the observed impact is not admissible");
 }
 
@@ -90,9 +86,7 @@ absl::Status AuditMany(const AuditOptions& options, const Solver& solver, const 
   }
   AuditDataOptions data = options.data;
   if (options.uncertainty.has_value()) {
-    const absl::StatusOr<double> uncertainty = ReadUncertainty(options);
-    if (!uncertainty.ok()) return uncertainty.status();
-    data.uncertainty_m_s = *uncertainty;
+    RICOCHET_TRY(data.uncertainty_m_s, ReadUncertainty(options));
   }
   return AuditData(data, options.common, solver, scene);
 }
@@ -102,11 +96,9 @@ absl::Status RunAudit(const AuditOptions& options) {
   if (options.data.file.empty() && (options.data.list || !options.data.skipped_columns.empty())) {
     return absl::InvalidArgumentError("--list and --skip-column need --data FILE.csv");
   }
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
-  if (!solver.ok()) return solver.status();
-  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
-  if (!scene.ok()) return scene.status();
-  return options.data.file.empty() ? AuditOne(options, **solver, *scene) : AuditMany(options, **solver, *scene);
+  RICOCHET_TRY(const std::unique_ptr<Solver> solver, MakeSolver(options.common));
+  RICOCHET_TRY(const Scene scene, ReadScene(options.scene));
+  return options.data.file.empty() ? AuditOne(options, *solver, scene) : AuditMany(options, *solver, scene);
 }
 
 }  // namespace

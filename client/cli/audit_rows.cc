@@ -20,6 +20,7 @@
 #include "core/audit/audit_scene.h"
 #include "core/audit/input_scene.h"
 #include "core/base/counted.h"
+#include "core/base/try.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
 
@@ -206,9 +207,7 @@ absl::Status AuditAll(AuditTable& table, int64_t size, const AuditDataOptions& d
   Progress progress(rows_to_terminal, "rows");
   bool is_first = true;
   while (true) {
-    absl::StatusOr<AuditRows> read = table.Next(rows_of_a_call);
-    if (!read.ok()) return read.status();
-    AuditRows& rows = *read;
+    RICOCHET_TRY(AuditRows rows, table.Next(rows_of_a_call));
     // Without rows there is still one call, which reports the errors of the scene.
     if (rows.lines.empty() && !is_first) break;
     is_first = false;
@@ -234,9 +233,7 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
   std::ifstream file;
   int64_t size = 0;
   if (!is_standard) {
-    absl::StatusOr<std::ifstream> opened = OpenToRead(data.file);
-    if (!opened.ok()) return opened.status();
-    file = *std::move(opened);
+    RICOCHET_TRY(file, OpenToRead(data.file));
     std::error_code unknown;
     const auto bytes = std::filesystem::file_size(data.file, unknown);
     if (!unknown) size = static_cast<int64_t>(bytes);
@@ -249,10 +246,9 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
   if (data.uncertainty_m_s.has_value() && table->has_uncertainty()) {
     return absl::InvalidArgumentError("--uncertainty cannot be combined with a column velocity_uncertainty_m_s");
   }
-  absl::StatusOr<Output> output = Output::Open(options.output);
-  if (!output.ok()) return output.status();
+  RICOCHET_TRY(Output output, Output::Open(options.output));
   const Writer writer(options.format, scene, data.list);
-  Auditor auditor(solver, scene, data, writer, *output);
+  Auditor auditor(solver, scene, data, writer, output);
   const bool has_rows = data.list || options.format != Format::kText;
   const absl::Status audited = AuditAll(*table, size, data, has_rows && options.output.empty(),
                                         RowsOfACall(solver, table->columns() + 1), auditor);

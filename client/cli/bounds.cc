@@ -21,6 +21,7 @@
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
 #include "core/base/counted.h"
+#include "core/base/try.h"
 #include "core/scene/field.h"
 #include "proto/wire/requests.h"
 
@@ -201,19 +202,14 @@ std::string BoundsCsv(const BoundsResponse& response) {
 }
 
 absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
-  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
-  if (!scene.ok()) return scene.status();
-  const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
-  if (!digits.ok()) return digits.status();
-  BoundsRequest request{.scene = *scene, .ranges = {}, .certified_digits = *digits};
+  RICOCHET_TRY(const Scene scene, ReadScene(options.scene));
+  RICOCHET_TRY(const int32_t digits, ReadCertifiedDigits(options.certified));
+  BoundsRequest request{.scene = scene, .ranges = {}, .certified_digits = digits};
   for (const std::string& text : options.ranges) {
-    absl::StatusOr<FieldRange> range = ParseFieldRange(text, request.scene);
-    if (!range.ok()) return range.status();
-    request.ranges.push_back(*std::move(range));
+    RICOCHET_TRY(FieldRange range, ParseFieldRange(text, request.scene));
+    request.ranges.push_back(std::move(range));
   }
-  auto derivatives = ReadDerivatives(options.derivatives, *scene, BoundsNumbers(scene->system));
-  if (!derivatives.ok()) return derivatives.status();
-  request.derivatives = *std::move(derivatives);
+  RICOCHET_TRY(request.derivatives, ReadDerivatives(options.derivatives, scene, BoundsNumbers(scene.system)));
   return request;
 }
 
@@ -224,17 +220,14 @@ absl::Status RunBounds(const BoundsOptions& options) {
                                                              {"--certified", !options.certified.empty()},
                                                              {"--derivatives", options.derivatives.any()}});
   if (!table.ok()) return table;
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
-  if (!solver.ok()) return solver.status();
-  const absl::StatusOr<BoundsRequest> request = ReadRequest(options);
-  if (!request.ok()) return request.status();
-  const absl::StatusOr<BoundsResponse> response = (*solver)->Bounds(*request);
-  if (!response.ok()) return response.status();
-  if (absl::Status still = RequireVelocity(request->scene); !still.ok()) return still;
+  RICOCHET_TRY(const std::unique_ptr<Solver> solver, MakeSolver(options.common));
+  RICOCHET_TRY(const BoundsRequest request, ReadRequest(options));
+  RICOCHET_TRY(const BoundsResponse response, solver->Bounds(request));
+  if (absl::Status still = RequireVelocity(request.scene); !still.ok()) return still;
   absl::Status written = WriteAnswer(
-      options.common, *response, [&] { return BoundsText(*request, *response); }, [&] { return BoundsCsv(*response); });
+      options.common, response, [&] { return BoundsText(request, response); }, [&] { return BoundsCsv(response); });
   if (!written.ok() || options.picture.file.empty()) return written;
-  return DrawPicture(BoundsPlot(*response), options.picture);
+  return DrawPicture(BoundsPlot(response), options.picture);
 }
 
 }  // namespace

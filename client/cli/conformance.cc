@@ -19,6 +19,7 @@
 #include "client/cli/text/number_input.h"
 #include "client/cli/text/table.h"
 #include "core/base/decimal.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -42,9 +43,8 @@ struct ConformanceOptions {
 absl::StatusOr<std::vector<const ConformanceCase*>> Asked(const ConformanceOptions& options) {
   std::vector<const ConformanceCase*> named;
   for (const std::string& name : options.cases) {
-    const absl::StatusOr<const ConformanceCase*> one = FindConformanceCase(name, "--case");
-    if (!one.ok()) return one.status();
-    named.push_back(*one);
+    RICOCHET_TRY(const ConformanceCase* one, FindConformanceCase(name, "--case"));
+    named.push_back(one);
   }
   std::vector<std::string> unknown = options.families;
   std::vector<std::string> families;
@@ -62,11 +62,10 @@ absl::StatusOr<std::vector<const ConformanceCase*>> Asked(const ConformanceOptio
 }
 
 absl::Status RunList(const ConformanceOptions& options) {
-  const absl::StatusOr<std::vector<const ConformanceCase*>> asked = Asked(options);
-  if (!asked.ok()) return asked.status();
+  RICOCHET_TRY(const std::vector<const ConformanceCase*> asked, Asked(options));
   Table table(Table::Align::kLeft);
   std::string json = "[";
-  for (const ConformanceCase* one : *asked) {
+  for (const ConformanceCase* one : asked) {
     table.Add({one->name, one->family, one->shows});
     absl::StrAppend(&json, json.size() > 1 ? ",\n" : "\n", one->summary);
   }
@@ -108,41 +107,34 @@ std::string CaseText(const ConformanceCase& one) {
 
 absl::Status RunShow(const ConformanceOptions& options) {
   if (options.name.empty()) return WriteOutput(options.common, ConformanceCasesJson());
-  const absl::StatusOr<const ConformanceCase*> one = FindConformanceCase(options.name, "CASE");
-  if (!one.ok()) return one.status();
-  return WriteOutput(options.common, options.common.format == Format::kJson ? (*one)->json : CaseText(**one));
+  RICOCHET_TRY(const ConformanceCase* one, FindConformanceCase(options.name, "CASE"));
+  return WriteOutput(options.common, options.common.format == Format::kJson ? one->json : CaseText(*one));
 }
 
 absl::StatusOr<Grade> MakeGrade(const ConformanceOptions& options) {
   GradeDemand demand = {.law = options.law};
-  const absl::StatusOr<double> tolerance = ParseNumber(options.tolerance, "--tolerance");
-  if (!tolerance.ok()) return tolerance.status();
-  if (!(*tolerance > 0.0 && *tolerance < 1e100)) {
+  RICOCHET_TRY(const double tolerance, ParseNumber(options.tolerance, "--tolerance"));
+  if (!(tolerance > 0.0 && tolerance < 1e100)) {
     return InputError("--tolerance", options.tolerance, "be above 0 and below 1e100");
   }
-  demand.tolerance = *tolerance;
+  demand.tolerance = tolerance;
   if (absl::Status status = CheckConformanceLaw(options.law, "--law"); !status.ok()) return status;
-  absl::StatusOr<std::vector<const ConformanceCase*>> asked = Asked(options);
-  if (!asked.ok()) return asked.status();
-  demand.asked = *std::move(asked);
-  const absl::StatusOr<std::string> text = ReadText(options.name);
-  if (!text.ok()) return text.status();
-  absl::StatusOr<SimulatorAnswers> answers = ReadSimulatorAnswers(*text, options.name);
-  if (!answers.ok()) return answers.status();
-  if (answers->simulator.empty()) answers->simulator = options.name;
-  return GradeOf(*answers, demand);
+  RICOCHET_TRY(demand.asked, Asked(options));
+  RICOCHET_TRY(const std::string text, ReadText(options.name));
+  RICOCHET_TRY(SimulatorAnswers answers, ReadSimulatorAnswers(text, options.name));
+  if (answers.simulator.empty()) answers.simulator = options.name;
+  return GradeOf(answers, demand);
 }
 
 absl::Status RunGrade(const ConformanceOptions& options) {
-  const absl::StatusOr<Grade> grade = MakeGrade(options);
-  if (!grade.ok()) return grade.status();
+  RICOCHET_TRY(const Grade grade, MakeGrade(options));
   const Format format = options.common.format;
-  absl::Status written = WriteOutput(options.common, format == Format::kJson  ? GradeJson(*grade)
-                                                     : format == Format::kCsv ? GradeCsv(*grade)
-                                                                              : GradeText(*grade));
-  if (written.ok() && !options.html.empty()) written = WriteFile(options.html, GradePage(*grade));
-  if (!written.ok() || grade->AllRight()) return written;
-  return absl::FailedPreconditionError(absl::StrCat("only ", GradeVerdict(*grade)));
+  absl::Status written = WriteOutput(options.common, format == Format::kJson  ? GradeJson(grade)
+                                                     : format == Format::kCsv ? GradeCsv(grade)
+                                                                              : GradeText(grade));
+  if (written.ok() && !options.html.empty()) written = WriteFile(options.html, GradePage(grade));
+  if (!written.ok() || grade.AllRight()) return written;
+  return absl::FailedPreconditionError(absl::StrCat("only ", GradeVerdict(grade)));
 }
 
 constexpr std::array kListFormats = {Format::kText, Format::kJson};

@@ -23,6 +23,7 @@
 #include "client/cli/terminal/progress.h"
 #include "client/cli/text/number_input.h"
 #include "client/cost_reader.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -65,14 +66,12 @@ absl::StatusOr<CostRequest> MakeRequest(const CostOptions& options) {
     request.scene = std::get<Scene>(std::move(scene));
   }
   if (!options.time_limit.empty()) {
-    const auto limit = ParseDuration(options.time_limit, "--time-limit");
-    if (!limit.ok()) return limit.status();
-    request.time_limit_s = std::chrono::duration<double>(*limit).count();
+    RICOCHET_TRY(const auto limit, ParseDuration(options.time_limit, "--time-limit"));
+    request.time_limit_s = std::chrono::duration<double>(limit).count();
   }
   if (!options.samples.empty()) {
-    const absl::StatusOr<int64_t> samples = ParseCount(options.samples, "--samples", kMostCostSamples);
-    if (!samples.ok()) return samples.status();
-    request.samples = static_cast<int32_t>(*samples);
+    RICOCHET_TRY(const int64_t samples, ParseCount(options.samples, "--samples", kMostCostSamples));
+    request.samples = static_cast<int32_t>(samples);
   }
   return request;
 }
@@ -87,26 +86,22 @@ absl::Status RunCost(const CostOptions& options) {
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   // This comes before the solver, whose connection starts threads.
   const Interrupt interrupt;
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
-  if (!solver.ok()) return solver.status();
-  const absl::StatusOr<CostRequest> request = MakeRequest(options);
-  if (!request.ok()) return request.status();
+  RICOCHET_TRY(const std::unique_ptr<Solver> solver, MakeSolver(options.common));
+  RICOCHET_TRY(const CostRequest request, MakeRequest(options));
   Progress progress(/*rows_to_terminal=*/false, "methods");
-  const absl::StatusOr<CostChunk> study =
-      WholeStudy((*solver)->Cost(*request, {.stop = interrupt.token()}),
-                 [&](const CostChunk& part) { progress.Update(part.rows_done, part.rows_total); });
-  if (!study.ok()) return study.status();
+  RICOCHET_TRY(const CostChunk study,
+               WholeStudy(solver->Cost(request, {.stop = interrupt.token()}),
+                          [&](const CostChunk& part) { progress.Update(part.rows_done, part.rows_total); }));
   absl::Status written = WriteAnswer(
-      options.common, *study, [&] { return CostText(*study); }, [&] { return CostCsv(*study); });
+      options.common, study, [&] { return CostText(study); }, [&] { return CostCsv(study); });
   if (!written.ok()) return written;
   if (!options.html.empty()) {
-    if (absl::Status status = WritePage(request->scene, *study, options.html); !status.ok()) return status;
+    if (absl::Status status = WritePage(request.scene, study, options.html); !status.ok()) return status;
   }
   if (options.picture.file.empty()) return absl::OkStatus();
-  const std::string title = absl::StrCat("What accuracy costs: one impact, ", SystemText(request->scene));
-  const absl::StatusOr<PictureSize> size = SizeOf(options.picture);
-  if (!size.ok()) return size.status();
-  return DrawPicture(CostPlot(*study, title, size->width, size->height), options.picture);
+  const std::string title = absl::StrCat("What accuracy costs: one impact, ", SystemText(request.scene));
+  RICOCHET_TRY(const PictureSize size, SizeOf(options.picture));
+  return DrawPicture(CostPlot(study, title, size.width, size.height), options.picture);
 }
 
 }  // namespace

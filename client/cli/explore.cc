@@ -20,6 +20,7 @@
 #include "client/cli/text/number_input.h"
 #include "client/cost_reader.h"
 #include "client/server_address.h"
+#include "core/base/try.h"
 #include "proto/wire/cost.h"
 
 namespace ricochet::cli {
@@ -73,35 +74,29 @@ void AnswerPage(const std::optional<Scene>& scene, Exchange& exchange) {
 absl::StatusOr<std::string> CostAnswer(const Solver& solver, const std::string& body, const CallOptions& options) {
   v1::CostRequest request;
   if (absl::Status wrong = ParseJson("the body", body, request); !wrong.ok()) return wrong;
-  const absl::StatusOr<CostChunk> study = WholeStudy(solver.Cost(FromProto(request), options), [](const CostChunk&) {});
-  if (!study.ok()) return study.status();
-  return JsonOf(ToProto(*study));
+  RICOCHET_TRY(const CostChunk study, WholeStudy(solver.Cost(FromProto(request), options), [](const CostChunk&) {}));
+  return JsonOf(ToProto(study));
 }
 
 absl::Status RunExplore(const ExploreOptions& options) {
-  const absl::StatusOr<std::pair<std::string, int>> address = ReadListen(options);
-  if (!address.ok()) return address.status();
+  RICOCHET_TRY(const auto address, ReadListen(options));
   std::optional<Scene> scene;
   if (options.scene.any()) {
-    absl::StatusOr<Scene> read = ReadScene(options.scene);
-    if (!read.ok()) return read.status();
-    scene = *std::move(read);
+    RICOCHET_TRY(scene, ReadScene(options.scene));
   }
   // This comes before the solver and the server, which start threads.
   const Interrupt interrupt;
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common, {}, Limits());
-  if (!solver.ok()) return solver.status();
+  RICOCHET_TRY(const std::unique_ptr<Solver> solver, MakeSolver(options.common, {}, Limits()));
   const auto answer = [&](Exchange& exchange, const absl::Status& allowed) {
     if (!allowed.ok()) return ReplyError(allowed, exchange);
     if (exchange.path() == "/") return AnswerPage(scene, exchange);
-    JsonCall call = FindCall(**solver, absl::StripPrefix(exchange.path(), "/ricochet.v1.ImpactService/"));
-    if (exchange.path() == "/answers") call = std::bind_front(PageAnswers, std::cref(**solver));
-    if (exchange.path() == "/cost") call = std::bind_front(CostAnswer, std::cref(**solver));
+    JsonCall call = FindCall(*solver, absl::StripPrefix(exchange.path(), "/ricochet.v1.ImpactService/"));
+    if (exchange.path() == "/answers") call = std::bind_front(PageAnswers, std::cref(*solver));
+    if (exchange.path() == "/cost") call = std::bind_front(CostAnswer, std::cref(*solver));
     AnswerPost(call, interrupt.token(), exchange);
   };
-  const absl::StatusOr<std::unique_ptr<WebServer>> web = WebServer::Start(address->first, address->second, answer);
-  if (!web.ok()) return web.status();
-  std::printf("%s\n", (*web)->url().c_str());
+  RICOCHET_TRY(const std::unique_ptr<WebServer> web, WebServer::Start(address.first, address.second, answer));
+  std::printf("%s\n", web->url().c_str());
   std::fflush(stdout);
   Interrupt::Wait();
   return absl::OkStatus();

@@ -15,6 +15,7 @@
 #include "client/cli/report/fit_report.h"
 #include "client/cli/terminal/interrupt.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -51,9 +52,7 @@ absl::Status ReadLoss(const std::string& text, FitRequest& request) {
   }
   request.loss = name == "huber" ? FitLoss::kHuber : name == "cauchy" ? FitLoss::kCauchy : FitLoss::kSquares;
   if (equals == std::string::npos) return absl::OkStatus();
-  const absl::StatusOr<double> scale = ParseNumber(text.substr(equals + 1), "--loss");
-  if (!scale.ok()) return scale.status();
-  request.loss_scale = *scale;
+  RICOCHET_TRY(request.loss_scale, ParseNumber(text.substr(equals + 1), "--loss"));
   return absl::OkStatus();
 }
 
@@ -62,14 +61,12 @@ absl::Status ReadSearch(const FitOptions& options, FitRequest& request) {
     if (absl::Status status = ReadLoss(*options.loss, request); !status.ok()) return status;
   }
   if (options.starts.has_value()) {
-    const absl::StatusOr<int64_t> starts = ParseCount(*options.starts, "--starts", kMostFitStarts);
-    if (!starts.ok()) return starts.status();
-    request.starts = static_cast<int32_t>(*starts);
+    RICOCHET_TRY(const int64_t starts, ParseCount(*options.starts, "--starts", kMostFitStarts));
+    request.starts = static_cast<int32_t>(starts);
   }
   if (!options.iterations.has_value()) return absl::OkStatus();
-  const absl::StatusOr<int64_t> iterations = ParseCount(*options.iterations, "--iterations", kMostFitIterations);
-  if (!iterations.ok()) return iterations.status();
-  request.max_iterations = static_cast<int32_t>(*iterations);
+  RICOCHET_TRY(const int64_t iterations, ParseCount(*options.iterations, "--iterations", kMostFitIterations));
+  request.max_iterations = static_cast<int32_t>(iterations);
   return absl::OkStatus();
 }
 
@@ -85,23 +82,20 @@ absl::Status CheckFormat(const FitOptions& options) {
 absl::Status RunFit(const FitOptions& options) {
   if (absl::Status status = CheckFormat(options); !status.ok()) return status;
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
-  if (!solver.ok()) return solver.status();
-  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
-  if (!scene.ok()) return scene.status();
-  absl::StatusOr<FitRequest> request = ReadFit(options.data, *scene);
-  if (!request.ok()) return request.status();
-  if (absl::Status status = ReadSearch(options, *request); !status.ok()) return status;
+  RICOCHET_TRY(const std::unique_ptr<Solver> solver, MakeSolver(options.common));
+  RICOCHET_TRY(const Scene scene, ReadScene(options.scene));
+  RICOCHET_TRY(FitRequest request, ReadFit(options.data, scene));
+  if (absl::Status status = ReadSearch(options, request); !status.ok()) return status;
   const Interrupt interrupt;
-  const absl::StatusOr<FitResponse> response = (*solver)->Fit(*request, {.stop = interrupt.token()});
-  if (!response.ok()) return InTheTable(*request, response.status());
+  const absl::StatusOr<FitResponse> response = solver->Fit(request, {.stop = interrupt.token()});
+  if (!response.ok()) return InTheTable(request, response.status());
   absl::Status written = WriteAnswer(
-      options.common, *response, [&] { return FitText(*request, *response); },
-      [&] { return options.rows ? FitRowsCsv(*request, *response) : FitCsv(*response); });
+      options.common, *response, [&] { return FitText(request, *response); },
+      [&] { return options.rows ? FitRowsCsv(request, *response) : FitCsv(*response); });
   if (!written.ok()) return written;
   if (options.common.format == Format::kCsv) std::fputs(FitSummaryText(*response).c_str(), stderr);
   if (!options.picture.file.empty()) {
-    if (absl::Status status = DrawPicture(FitPlot(*request, *response), options.picture); !status.ok()) return status;
+    if (absl::Status status = DrawPicture(FitPlot(request, *response), options.picture); !status.ok()) return status;
   }
   if (!options.strict || !response->refused) return absl::OkStatus();
   return absl::FailedPreconditionError("the data refuse the physics or the stated errors");

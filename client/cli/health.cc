@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/input/make_solver.h"
 #include "client/cli/program.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -33,9 +34,8 @@ const char* Name(Health health) {
 }
 
 absl::Status RunHealth(const HealthOptions& options) {
-  const absl::StatusOr<ClientOptions> client_options = MakeClientOptions(options.common);
-  if (!client_options.ok()) return client_options.status();
-  const absl::StatusOr<Health> health = CheckHealth(*client_options, options.service);
+  RICOCHET_TRY(const ClientOptions client_options, MakeClientOptions(options.common));
+  const absl::StatusOr<Health> health = CheckHealth(client_options, options.service);
   // A service that is missing may still be starting.
   if (absl::IsNotFound(health.status())) {
     return absl::UnavailableError(absl::StrCat(options.service, ": ", health.status().message()));

@@ -15,6 +15,7 @@
 #include "client/cli/io/csv_row.h"
 #include "client/cli/program.h"
 #include "client/cli/text/enum_names.h"
+#include "core/base/try.h"
 #include "proto/wire/plan.h"
 
 namespace ricochet::cli {
@@ -108,12 +109,10 @@ std::string InfoCsv(const InfoResponse& info) {
 }
 
 absl::Status RunInfo(const CommonOptions& options) {
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options);
-  if (!solver.ok()) return solver.status();
-  const absl::StatusOr<InfoResponse> info = (*solver)->Info();
-  if (!info.ok()) return info.status();
+  RICOCHET_TRY(const std::unique_ptr<Solver> solver, MakeSolver(options));
+  RICOCHET_TRY(const InfoResponse info, solver->Info());
   return WriteAnswer(
-      options, *info, [&] { return InfoText(*info); }, [&] { return InfoCsv(*info); });
+      options, info, [&] { return InfoText(info); }, [&] { return InfoCsv(info); });
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "client/cli/sweep/sweep_output.h"
 #include "client/cli/terminal/interrupt.h"
 #include "client/cli/terminal/progress.h"
+#include "core/base/try.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet::cli {
@@ -50,11 +51,10 @@ class Merger {
 
   // Errors: DATA_LOSS for a shard that is not what its manifest says; CANCELLED; those of the system.
   absl::Status Add(const ShardFile& shard) {
-    absl::StatusOr<ShardReader> reader = ShardReader::Open(shard);
-    if (!reader.ok()) return reader.status();
+    RICOCHET_TRY(ShardReader reader, ShardReader::Open(shard));
     checker_.StartCall();
     while (true) {
-      absl::StatusOr<std::optional<v1::SweepResponse>> message = reader->Next();
+      absl::StatusOr<std::optional<v1::SweepResponse>> message = reader.Next();
       if (!message.ok()) return Damaged(shard, message.status());
       if (!message->has_value()) break;
       if (absl::Status status = Write(shard, **message); !status.ok()) return status;
@@ -112,23 +112,21 @@ absl::Status Verify(const std::vector<ShardFile>& shards) {
 
 absl::Status RunMerge(const MergeOptions& options) {
   const Interrupt interrupt;
-  absl::StatusOr<std::vector<ShardFile>> shards = FindShardFiles(options.file);
-  if (!shards.ok()) return shards.status();
-  for (const ShardFile& shard : *shards) {
+  RICOCHET_TRY(std::vector<ShardFile> shards, FindShardFiles(options.file));
+  for (const ShardFile& shard : shards) {
     for (const std::string& path : {shard.path, shard.manifest_path()}) {
       if (absl::Status status = UseFile(FileUse::kRead, "", path); !status.ok()) return status;
     }
   }
-  if (absl::Status status = CheckCoverage(*shards); !status.ok()) return status;
+  if (absl::Status status = CheckCoverage(shards); !status.ok()) return status;
   if (options.verify) {
-    if (absl::Status status = Verify(*shards); !status.ok()) return status;
+    if (absl::Status status = Verify(shards); !status.ok()) return status;
   }
-  const SweepRequest sweep = FromProto(shards->front().manifest.sweep());
-  absl::StatusOr<SweepOutput> output = SweepOutput::Open(sweep, options.common, /*summary_only=*/false);
-  if (!output.ok()) return output.status();
-  Merger merger(sweep, *std::move(output), StreamsRows(options.common));
+  const SweepRequest sweep = FromProto(shards.front().manifest.sweep());
+  RICOCHET_TRY(SweepOutput output, SweepOutput::Open(sweep, options.common, /*summary_only=*/false));
+  Merger merger(sweep, std::move(output), StreamsRows(options.common));
   const bool is_empty = sweep.first_index == *sweep.end_index;
-  for (const ShardFile& shard : *shards) {
+  for (const ShardFile& shard : shards) {
     if (shard.manifest.rows() == 0 && !is_empty) continue;
     if (absl::Status status = merger.Add(shard); !status.ok()) return status;
     if (is_empty) break;

@@ -15,6 +15,7 @@
 #include "client/cli/program.h"
 #include "client/cli/report/multicontact_report.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 #include "core/scene/validate_multi.h"
 #include "proto/wire/multi_contact.h"
 
@@ -53,9 +54,8 @@ absl::StatusOr<MultiContactMethod> ReadMethod(const std::string& name) {
 absl::StatusOr<LinearOutput> ReadOutput(const std::string& text) {
   const size_t equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) return InputError("--function", text, "be NAME=NUMBER,NUMBER,...");
-  absl::StatusOr<std::vector<double>> coefficients = ParseNumbers(text.substr(equals + 1), "--function");
-  if (!coefficients.ok()) return coefficients.status();
-  return LinearOutput{.name = text.substr(0, equals), .coefficients = *std::move(coefficients)};
+  RICOCHET_TRY(std::vector<double> coefficients, ParseNumbers(text.substr(equals + 1), "--function"));
+  return LinearOutput{.name = text.substr(0, equals), .coefficients = std::move(coefficients)};
 }
 
 absl::StatusOr<StiffnessRange> ReadRange(const std::string& text) {
@@ -65,12 +65,10 @@ absl::StatusOr<StiffnessRange> ReadRange(const std::string& text) {
   if (halves.size() != 2 || ends.size() != 2 || !absl::SimpleAtoi(halves[0], &range.contact)) {
     return InputError("--stiffness-ratio", text, "be CONTACT=LOW:HIGH, such as 2=0.01:100");
   }
-  const absl::StatusOr<double> low = ParseNumber(ends[0], "--stiffness-ratio");
-  if (!low.ok()) return low.status();
-  const absl::StatusOr<double> high = ParseNumber(ends[1], "--stiffness-ratio");
-  if (!high.ok()) return high.status();
-  range.low = *low;
-  range.high = *high;
+  RICOCHET_TRY(const double low, ParseNumber(ends[0], "--stiffness-ratio"));
+  RICOCHET_TRY(const double high, ParseNumber(ends[1], "--stiffness-ratio"));
+  range.low = low;
+  range.high = high;
   return range;
 }
 
@@ -79,18 +77,15 @@ absl::StatusOr<MultiContactScene> SceneOfMechanism(const MultiContactOptions& op
   if (options.friction.empty() || options.energetic.empty()) {
     return absl::InvalidArgumentError("--mechanism needs --mu and --energetic, with a number for each contact");
   }
-  const absl::StatusOr<std::vector<double>> friction = ParseNumbers(options.friction, "--mu");
-  if (!friction.ok()) return friction.status();
-  const absl::StatusOr<std::vector<double>> energetic = ParseNumbers(options.energetic, "--energetic");
-  if (!energetic.ok()) return energetic.status();
-  if (energetic->size() != friction->size()) {
-    return InputError("--energetic", options.energetic, absl::StrCat("be as many as --mu, ", friction->size()));
+  RICOCHET_TRY(const std::vector<double> friction, ParseNumbers(options.friction, "--mu"));
+  RICOCHET_TRY(const std::vector<double> energetic, ParseNumbers(options.energetic, "--energetic"));
+  if (energetic.size() != friction.size()) {
+    return InputError("--energetic", options.energetic, absl::StrCat("be as many as --mu, ", friction.size()));
   }
-  absl::StatusOr<Mechanism> mechanism = ReadHeldMechanism(options.scene, static_cast<int64_t>(friction->size()));
-  if (!mechanism.ok()) return mechanism.status();
-  MultiContactScene scene = {.system = *std::move(mechanism)};
-  for (size_t i = 0; i < friction->size(); ++i) {
-    scene.contacts.push_back({.friction = (*friction)[i], .energetic = (*energetic)[i]});
+  RICOCHET_TRY(Mechanism mechanism, ReadHeldMechanism(options.scene, static_cast<int64_t>(friction.size())));
+  MultiContactScene scene = {.system = std::move(mechanism)};
+  for (size_t i = 0; i < friction.size(); ++i) {
+    scene.contacts.push_back({.friction = friction[i], .energetic = energetic[i]});
   }
   return scene;
 }
@@ -111,28 +106,22 @@ absl::StatusOr<MultiContactScene> ReadScene(const MultiContactOptions& options) 
 }
 
 absl::StatusOr<MultiContactRequest> ReadRequest(const MultiContactOptions& options) {
-  absl::StatusOr<MultiContactScene> scene = ReadScene(options);
-  if (!scene.ok()) return scene.status();
-  MultiContactRequest request = {.scene = *std::move(scene)};
+  RICOCHET_TRY(MultiContactScene scene, ReadScene(options));
+  MultiContactRequest request = {.scene = std::move(scene)};
   for (const std::string& name : options.methods) {
-    const absl::StatusOr<MultiContactMethod> method = ReadMethod(name);
-    if (!method.ok()) return method.status();
-    request.methods.push_back(*method);
+    RICOCHET_TRY(const MultiContactMethod method, ReadMethod(name));
+    request.methods.push_back(method);
   }
   for (const std::string& text : options.states) {
-    absl::StatusOr<std::vector<double>> velocity = ParseNumbers(text, "--state");
-    if (!velocity.ok()) return velocity.status();
-    request.states.push_back({.velocity = *std::move(velocity)});
+    RICOCHET_TRY(std::vector<double> velocity, ParseNumbers(text, "--state"));
+    request.states.push_back({.velocity = std::move(velocity)});
   }
   for (const std::string& text : options.outputs) {
-    absl::StatusOr<LinearOutput> output = ReadOutput(text);
-    if (!output.ok()) return output.status();
-    request.outputs.push_back(*std::move(output));
+    RICOCHET_TRY(LinearOutput output, ReadOutput(text));
+    request.outputs.push_back(std::move(output));
   }
   if (options.stiffness_ratio.empty()) return request;
-  const absl::StatusOr<StiffnessRange> range = ReadRange(options.stiffness_ratio);
-  if (!range.ok()) return range.status();
-  request.stiffness_range = *range;
+  RICOCHET_TRY(request.stiffness_range, ReadRange(options.stiffness_ratio));
   return request;
 }
 
@@ -154,17 +143,14 @@ absl::Status CheckMethods(const MultiContactOptions& options) {
 absl::Status RunMultiContact(const MultiContactOptions& options) {
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   if (absl::Status status = CheckMethods(options); !status.ok()) return status;
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
-  if (!solver.ok()) return solver.status();
-  const absl::StatusOr<MultiContactRequest> request = ReadRequest(options);
-  if (!request.ok()) return request.status();
-  const absl::StatusOr<MultiContactResponse> response = (*solver)->MultiContact(*request);
-  if (!response.ok()) return response.status();
+  RICOCHET_TRY(const std::unique_ptr<Solver> solver, MakeSolver(options.common));
+  RICOCHET_TRY(const MultiContactRequest request, ReadRequest(options));
+  RICOCHET_TRY(const MultiContactResponse response, solver->MultiContact(request));
   absl::Status written = WriteAnswer(
-      options.common, *response, [&] { return MultiContactText(*request, *response); },
-      [&] { return MultiContactCsv(*request, *response); });
+      options.common, response, [&] { return MultiContactText(request, response); },
+      [&] { return MultiContactCsv(request, response); });
   if (!written.ok() || options.picture.file.empty()) return written;
-  return DrawPicture(MultiContactPlot(*request, *response), options.picture);
+  return DrawPicture(MultiContactPlot(request, response), options.picture);
 }
 
 }  // namespace

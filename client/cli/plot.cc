@@ -12,6 +12,7 @@
 #include "client/cli/program.h"
 #include "client/cli/sweep/sweep_file.h"
 #include "client/cli/sweep/sweep_plot.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -41,16 +42,15 @@ absl::Status RunPlot(PlotOptions options) {
   const bool is_default = options.picture.file.empty();
   if (is_default) options.picture.file = DefaultPicture(options.file);
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
-  const absl::StatusOr<SweepTable> table = ReadSweepFile(options.file, options.columns);
-  if (!table.ok()) return table.status();
+  RICOCHET_TRY(const SweepTable table, ReadSweepFile(options.file, options.columns));
   if (is_default) {
     if (absl::Status status = UseFile(FileUse::kWritten, "", options.picture.file); !status.ok()) return status;
   }
-  absl::StatusOr<Plot> plot = PlotOf(*table, options.picture.kind);
+  absl::StatusOr<Plot> plot = PlotOf(table, options.picture.kind);
   if (!plot.ok()) return {plot.status().code(), absl::StrCat(options.file, ": ", plot.status().message())};
   const bool is_map = !plot->panels.front().map.empty();
   if (absl::Status status = DrawWith(*std::move(plot), options.picture); !status.ok()) return status;
-  if (table->regimes.empty()) {
+  if (table.regimes.empty()) {
     std::fprintf(stderr, "%s has no regimes, so that %s: ricochet sweep --regime writes them\n", options.file.c_str(),
                  is_map ? "jammed points look like others" : "lines go on where the regime changes");
   }

@@ -22,6 +22,7 @@
 #include "client/cli/report/solve_report.h"
 #include "client/cli/solve_data.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 #include "core/rows/column.h"
 #include "proto/wire/requests.h"
 
@@ -106,10 +107,9 @@ absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Sc
         "--plan-only cannot be combined with --history, --force-history, --certified, --strict, --both-ends, "
         "--derivatives, --plot or --html");
   }
-  const absl::StatusOr<PlanResponse> response = solver.Plan({.scene = scene, .demand = demand});
-  if (!response.ok()) return response.status();
+  RICOCHET_TRY(const PlanResponse response, solver.Plan({.scene = scene, .demand = demand}));
   return WriteAnswer(
-      options.common, *response, [&] { return PlanText(response->plan); }, [&] { return PlanCsv(response->plan); });
+      options.common, response, [&] { return PlanText(response.plan); }, [&] { return PlanCsv(response.plan); });
 }
 
 // Solves the rows of a table.
@@ -127,50 +127,36 @@ absl::Status RunData(const SolveOptions& options, const Solver& solver, const Sc
 
 absl::Status RunSolve(const SolveOptions& options) {
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
-  if (!solver.ok()) return solver.status();
-  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
-  if (!scene.ok()) return scene.status();
-  const absl::StatusOr<DemandFields> demand = ReadDemand(options.demand);
-  if (!demand.ok()) return demand.status();
-  if (!options.data.file.empty()) return RunData(options, **solver, *scene, *demand);
+  RICOCHET_TRY(const std::unique_ptr<Solver> solver, MakeSolver(options.common));
+  RICOCHET_TRY(const Scene scene, ReadScene(options.scene));
+  RICOCHET_TRY(const DemandFields demand, ReadDemand(options.demand));
+  if (!options.data.file.empty()) return RunData(options, *solver, scene, demand);
   if (!options.data.columns.empty() || !options.data.skipped_columns.empty()) {
     return absl::InvalidArgumentError("--column and --skip-column need --data FILE.csv");
   }
-  if (options.plan_only) return RunPlan(options, **solver, *scene, *demand);
+  if (options.plan_only) return RunPlan(options, *solver, scene, demand);
   if (absl::Status status = CheckTable(options); !status.ok()) return status;
   SolveRequest request{
-      .scene = *scene, .inadmissible_is_error = options.strict, .demand = *demand, .both_ends = options.both_ends};
-  const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
-  if (!digits.ok()) return digits.status();
-  request.certified_digits = *digits;
-  absl::StatusOr<std::optional<DerivativePaths>> derivatives =
-      ReadDerivatives(options.derivatives, *scene, Columns(*scene));
-  if (!derivatives.ok()) return derivatives.status();
-  request.derivatives = *std::move(derivatives);
+      .scene = scene, .inadmissible_is_error = options.strict, .demand = demand, .both_ends = options.both_ends};
+  RICOCHET_TRY(request.certified_digits, ReadCertifiedDigits(options.certified));
+  RICOCHET_TRY(request.derivatives, ReadDerivatives(options.derivatives, scene, Columns(scene)));
   if (!options.force_history.empty()) {
-    const absl::StatusOr<int64_t> intervals = ParseCount(options.force_history, "--force-history", kMostIntervals);
-    if (!intervals.ok()) return intervals.status();
-    request.force_intervals = *intervals;
+    RICOCHET_TRY(request.force_intervals, ParseCount(options.force_history, "--force-history", kMostIntervals));
   }
   if (!options.history.empty()) {
-    const absl::StatusOr<int64_t> intervals = ParseCount(options.history, "--history", kMostIntervals);
-    if (!intervals.ok()) return intervals.status();
-    request.history_intervals = *intervals;
+    RICOCHET_TRY(request.history_intervals, ParseCount(options.history, "--history", kMostIntervals));
   }
-  const absl::StatusOr<SolveResponse> response = (*solver)->Solve(request);
-  if (!response.ok()) return response.status();
-  if (absl::Status still = RequireVelocity(*scene); !still.ok()) return still;
+  RICOCHET_TRY(const SolveResponse response, solver->Solve(request));
+  if (absl::Status still = RequireVelocity(scene); !still.ok()) return still;
   absl::Status written = WriteAnswer(
-      options.common, *response, [&] { return Text(response->outcome, scene->surface_velocity.has_value(), options); },
-      [&] { return Csv(response->outcome, options); });
+      options.common, response, [&] { return Text(response.outcome, scene.surface_velocity.has_value(), options); },
+      [&] { return Csv(response.outcome, options); });
   if (!written.ok()) return written;
   if (!options.html.empty()) {
-    if (absl::Status page = WriteFile(options.html, FinishedPage(**solver, request, *response)); !page.ok())
-      return page;
+    if (absl::Status page = WriteFile(options.html, FinishedPage(*solver, request, response)); !page.ok()) return page;
   }
   if (options.picture.file.empty()) return absl::OkStatus();
-  return DrawPicture(SolvePlot(**solver, request, *response), options.picture);
+  return DrawPicture(SolvePlot(*solver, request, response), options.picture);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 #include "client/cli/text/json_text.h"
 #include "client/cli/text/number_input.h"
 #include "core/base/counted.h"
+#include "core/base/try.h"
 #include "core/rows/column.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/engine.h"
@@ -57,9 +58,8 @@ absl::StatusOr<CsvReader> OpenTable(std::istream& stream, const DataOptions& dat
   if (absl::Status status = reader->Skip(data.skipped_columns); !status.ok()) return status;
   for (size_t i = 0; i < reader->header().size(); ++i) {
     if (reader->IsSkipped(i)) continue;
-    const absl::StatusOr<std::string> field = FullField(scene, reader->header()[i], "--data, column");
-    if (!field.ok()) return field.status();
-    reader->Define(i, *field, CellKindOf(*field));
+    RICOCHET_TRY(const std::string field, FullField(scene, reader->header()[i], "--data, column"));
+    reader->Define(i, field, CellKindOf(field));
   }
   return reader;
 }
@@ -95,9 +95,7 @@ absl::Status NameColumns(const absl::Status& error, const std::vector<size_t>& c
 }
 
 absl::Status Solve(CsvReader& reader, const Solver& solver, Solved& solved) {
-  const absl::StatusOr<CsvTable> read = reader.Next(std::numeric_limits<size_t>::max());
-  if (!read.ok()) return read.status();
-  const CsvTable& table = *read;
+  RICOCHET_TRY(const CsvTable table, reader.Next(std::numeric_limits<size_t>::max()));
   const size_t count = table.lines.size();
   solved.outputs.assign(solved.setup.columns.size(), std::vector<double>(count));
   solved.lines = table.lines;
@@ -206,18 +204,15 @@ absl::Status Write(const Solved& solved, const CommonOptions& options, size_t ro
 
 absl::Status SolveData(const DataOptions& data, const CommonOptions& options, const Solver& solver, const Scene& scene,
                        const DemandFields& demand) {
-  const absl::StatusOr<std::string> text = ReadText(data.file);
-  if (!text.ok()) return text.status();
-  std::istringstream stream(*text);
-  absl::StatusOr<CsvReader> reader = OpenTable(stream, data, scene);
-  if (!reader.ok()) return reader.status();
-  const absl::StatusOr<std::vector<std::string>> columns = FullColumns(scene, data.columns);
-  if (!columns.ok()) return columns.status();
+  RICOCHET_TRY(const std::string text, ReadText(data.file));
+  std::istringstream stream(text);
+  RICOCHET_TRY(CsvReader reader, OpenTable(stream, data, scene));
+  RICOCHET_TRY(const std::vector<std::string> columns, FullColumns(scene, data.columns));
   Solved solved = {.setup = {.scene = scene,
                              .fields = {},
-                             .columns = columns->empty() ? DefaultColumns(scene) : *columns,
+                             .columns = columns.empty() ? DefaultColumns(scene) : columns,
                              .demand = demand}};
-  if (absl::Status status = Solve(*reader, solver, solved); !status.ok()) return status;
+  if (absl::Status status = Solve(reader, solver, solved); !status.ok()) return status;
   absl::StatusOr<int64_t> rows = static_cast<int64_t>(solved.lines.size());
   if (options.format == Format::kText) rows = RowsOfTable(options, *rows);
   if (!rows.ok()) return rows.status();

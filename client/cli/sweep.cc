@@ -27,6 +27,7 @@
 #include "client/cli/terminal/interrupt.h"
 #include "client/cli/terminal/progress.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 #include "core/rows/column.h"
 #include "core/scene/field.h"
 
@@ -97,22 +98,16 @@ std::vector<std::string> DefaultColumns(const Scene& scene) {
 
 absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   SweepRequest request;
-  absl::StatusOr<Scene> scene = ReadScene(options.scene);
-  if (!scene.ok()) return scene.status();
-  request.grid.scene = *std::move(scene);
+  RICOCHET_TRY(request.grid.scene, ReadScene(options.scene));
   for (const std::string& text : options.axes) {
-    absl::StatusOr<Axis> axis = ParseAxis(text, request.grid.scene);
-    if (!axis.ok()) return axis.status();
-    request.grid.axes.push_back(*std::move(axis));
+    RICOCHET_TRY(Axis axis, ParseAxis(text, request.grid.scene));
+    request.grid.axes.push_back(std::move(axis));
   }
   request.grid.combination = options.zip ? Combination::kZip : Combination::kProduct;
-  absl::StatusOr<std::vector<std::string>> columns = FullColumns(request.grid.scene, options.columns);
-  if (!columns.ok()) return columns.status();
-  request.columns = columns->empty() ? DefaultColumns(request.grid.scene) : *std::move(columns);
+  RICOCHET_TRY(std::vector<std::string> columns, FullColumns(request.grid.scene, options.columns));
+  request.columns = columns.empty() ? DefaultColumns(request.grid.scene) : std::move(columns);
   request.with_regime = options.regime;
-  const absl::StatusOr<DemandFields> demand = ReadDemand(options.demand);
-  if (!demand.ok()) return demand.status();
-  request.demand = *demand;
+  RICOCHET_TRY(request.demand, ReadDemand(options.demand));
   if (options.range.empty()) return request;
   if (absl::Status wrong = ReadRange(options.range, request); !wrong.ok()) return wrong;
   return request;
@@ -230,32 +225,27 @@ absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRe
 
 absl::Status Receive(const Solver& solver, const SweepRequest& request, const SweepOptions& options,
                      std::stop_token stop) {
-  absl::StatusOr<SweepOutput> output = IsResumable(options)
-                                           ? SweepOutput::OpenPartial(request, options.common, options.resume)
-                                           : SweepOutput::Open(request, options.common, options.summary_only);
-  if (!output.ok()) return output.status();
-  return ReceiveInto(*std::move(output), solver, request, options, std::move(stop));
+  RICOCHET_TRY(SweepOutput output, IsResumable(options)
+                                       ? SweepOutput::OpenPartial(request, options.common, options.resume)
+                                       : SweepOutput::Open(request, options.common, options.summary_only));
+  return ReceiveInto(std::move(output), solver, request, options, std::move(stop));
 }
 
 // Computes one shard, unless that was done before.
 absl::Status ReceiveShard(const Solver& solver, const SweepRequest& request, const SweepOptions& options,
                           std::stop_token stop) {
-  const absl::StatusOr<ShardNumber> number = FindShard(options.shard);
-  if (!number.ok()) return number.status();
-  const absl::StatusOr<SweepShard> shard = MakeShard(request, *number, options.common.output);
-  if (!shard.ok()) return shard.status();
-  for (const std::string& path : {shard->path, shard->manifest_path()}) {
+  RICOCHET_TRY(const ShardNumber number, FindShard(options.shard));
+  RICOCHET_TRY(const SweepShard shard, MakeShard(request, number, options.common.output));
+  for (const std::string& path : {shard.path, shard.manifest_path()}) {
     if (absl::Status status = UseFile(FileUse::kWritten, "", path); !status.ok()) return status;
   }
-  const absl::StatusOr<bool> complete = IsComplete(*shard);
-  if (!complete.ok()) return complete.status();
-  if (*complete) {
-    std::fprintf(stderr, "%s is complete\n", shard->path.c_str());
+  RICOCHET_TRY(const bool complete, IsComplete(shard));
+  if (complete) {
+    std::fprintf(stderr, "%s is complete\n", shard.path.c_str());
     return absl::OkStatus();
   }
-  absl::StatusOr<SweepOutput> output = SweepOutput::OpenShard(*shard);
-  if (!output.ok()) return output.status();
-  return ReceiveInto(*std::move(output), solver, shard->part, options, std::move(stop));
+  RICOCHET_TRY(SweepOutput output, SweepOutput::OpenShard(shard));
+  return ReceiveInto(std::move(output), solver, shard.part, options, std::move(stop));
 }
 
 // Returns nothing for an empty text: the solver then chooses the number of threads.
@@ -278,21 +268,18 @@ absl::Status RunSweep(const SweepOptions& options) {
   }
   if (absl::Status status = CheckResume(options); !status.ok()) return status;
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
-  const absl::StatusOr<std::optional<int>> threads = ReadThreads(options.threads);
-  if (!threads.ok()) return threads.status();
+  RICOCHET_TRY(const std::optional<int> threads, ReadThreads(options.threads));
   // This comes before the solver, which starts threads.
   const Interrupt interrupt;
-  const absl::StatusOr<std::unique_ptr<Solver>> solver =
-      MakeSolver(options.common, *threads, Limits::None(), options.fan_out);
-  if (!solver.ok()) return solver.status();
-  const absl::StatusOr<SweepRequest> request =
-      options.request.empty() ? RequestFromFlags(options) : RequestFromFile(options);
-  if (!request.ok()) return request.status();
-  if (request->grid.axes.empty()) {
+  RICOCHET_TRY(const std::unique_ptr<Solver> solver,
+               MakeSolver(options.common, threads, Limits::None(), options.fan_out));
+  RICOCHET_TRY(const SweepRequest request,
+               options.request.empty() ? RequestFromFlags(options) : RequestFromFile(options));
+  if (request.grid.axes.empty()) {
     std::fputs("The sweep is one point, because it has no --axis PATH=VALUES; --axis ? lists the paths.\n", stderr);
   }
-  if (options.shard.any()) return ReceiveShard(**solver, *request, options, interrupt.token());
-  return Receive(**solver, *request, options, interrupt.token());
+  if (options.shard.any()) return ReceiveShard(*solver, request, options, interrupt.token());
+  return Receive(*solver, request, options, interrupt.token());
 }
 
 void AddGridOptions(CLI::App& sub, SweepOptions& options) {

@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
+#include "core/base/try.h"
 #include "proto/text/json_errors.h"
 #include "ricochet/contact_matrix.h"
 
@@ -72,16 +73,14 @@ absl::StatusOr<std::string> PackedW(const Matrix& matrix, const std::vector<doub
                                                    " in a ", in_space ? kSpatial : kPlanar));
   }
   if (in_space) {
-    const auto contact = ContactFrom(std::span<const double, 9>(w.data(), 9), {0.0, 0.0}, 0.0);
-    if (!contact.ok()) return contact.status();
-    return absl::StrCat("\"w_per_kg\": ", ListOf(contact->w_per_kg));
+    RICOCHET_TRY(const auto contact, ContactFrom(std::span<const double, 9>(w.data(), 9), {0.0, 0.0}, 0.0));
+    return absl::StrCat("\"w_per_kg\": ", ListOf(contact.w_per_kg));
   }
-  const auto contact = ContactFrom(std::span<const double, 4>(w.data(), 4), 0.0, 0.0);
-  if (!contact.ok()) return contact.status();
+  RICOCHET_TRY(const auto contact, ContactFrom(std::span<const double, 4>(w.data(), 4), 0.0, 0.0));
   const auto number = [](double x) { return nlohmann::json(x).dump(); };
-  return absl::StrCat("\"w_tt_per_kg\": ", number(contact->w_tt_per_kg),
-                      ", \"w_tn_per_kg\": ", number(contact->w_tn_per_kg),
-                      ", \"w_nn_per_kg\": ", number(contact->w_nn_per_kg));
+  return absl::StrCat("\"w_tt_per_kg\": ", number(contact.w_tt_per_kg),
+                      ", \"w_tn_per_kg\": ", number(contact.w_tn_per_kg),
+                      ", \"w_nn_per_kg\": ", number(contact.w_nn_per_kg));
 }
 
 // Returns the system that states a W and begins last before `at`; a contact in space if there is none.
@@ -147,20 +146,18 @@ absl::StatusOr<std::string> WithFlatMatrices(const std::string& text) {
   for (const absl::string_view key : {kPackedW, kMass, kJacobian}) {
     const std::string quoted = absl::StrCat("\"", key, "\"");
     for (size_t at = flat.find(quoted); at != std::string::npos; at = flat.find(quoted, at + quoted.size())) {
-      const absl::StatusOr<std::optional<Matrix>> found = MatrixAt(flat, key, at + quoted.size());
-      if (!found.ok()) return found.status();
-      if (!found->has_value()) {
+      RICOCHET_TRY(const std::optional<Matrix> found, MatrixAt(flat, key, at + quoted.size()));
+      if (!found.has_value()) {
         if (key == kPackedW && SystemBefore(flat, at) == kPlanar) {
           return absl::InvalidArgumentError("planar_contact.w_per_kg: must be a 2 x 2 matrix, a list of its rows");
         }
         continue;
       }
-      const Matrix& matrix = **found;
-      absl::StatusOr<std::string> entry = FlatText(flat, key, at, matrix);
-      if (!entry.ok()) return entry.status();
+      const Matrix& matrix = *found;
+      RICOCHET_TRY(std::string entry, FlatText(flat, key, at, matrix));
       const auto first = flat.begin() + static_cast<ptrdiff_t>(at);
       const auto lines = std::count(first, flat.begin() + static_cast<ptrdiff_t>(matrix.end), '\n');
-      flat.replace(at, matrix.end - at, *entry + std::string(static_cast<size_t>(lines), '\n'));
+      flat.replace(at, matrix.end - at, entry + std::string(static_cast<size_t>(lines), '\n'));
     }
   }
   return flat;

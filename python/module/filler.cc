@@ -9,6 +9,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/invariant.h"
+#include "core/base/try.h"
 #include "proto/wire/enums.h"
 #include "python/module/exceptions.h"
 #include "python/module/record.h"
@@ -117,18 +118,16 @@ std::string RuleForShape(const google::protobuf::Descriptor& type, absl::string_
 // Sets the entries of W in the message of a contact.
 absl::Status PackW(const Matrix& w, google::protobuf::Message& message) {
   if (w.size() == 4) {
-    const auto contact = ContactFrom(std::span<const double, 4>(w.data(), 4), 0.0, 0.0);
-    if (!contact.ok()) return contact.status();
+    RICOCHET_TRY(const auto contact, ContactFrom(std::span<const double, 4>(w.data(), 4), 0.0, 0.0));
     auto& planar = dynamic_cast<v1::PlanarContact&>(message);
-    planar.set_w_tt_per_kg(contact->w_tt_per_kg);
-    planar.set_w_tn_per_kg(contact->w_tn_per_kg);
-    planar.set_w_nn_per_kg(contact->w_nn_per_kg);
+    planar.set_w_tt_per_kg(contact.w_tt_per_kg);
+    planar.set_w_tn_per_kg(contact.w_tn_per_kg);
+    planar.set_w_nn_per_kg(contact.w_nn_per_kg);
     return absl::OkStatus();
   }
-  const auto contact = ContactFrom(std::span<const double, 9>(w.data(), 9), {}, 0.0);
-  if (!contact.ok()) return contact.status();
+  RICOCHET_TRY(const auto contact, ContactFrom(std::span<const double, 9>(w.data(), 9), {}, 0.0));
   auto& spatial = dynamic_cast<v1::SpatialContact&>(message);
-  spatial.mutable_w_per_kg()->Assign(contact->w_per_kg.begin(), contact->w_per_kg.end());
+  spatial.mutable_w_per_kg()->Assign(contact.w_per_kg.begin(), contact.w_per_kg.end());
   return absl::OkStatus();
 }
 

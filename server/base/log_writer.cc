@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/try.h"
 #include "server/base/descriptor.h"
 
 namespace ricochet::server {
@@ -164,9 +165,8 @@ void LogWriter::State::Run() {
 }
 
 absl::StatusOr<std::unique_ptr<LogWriter>> LogWriter::Open(const std::string& path, size_t buffer_bytes) {
-  auto file = OpenPath(path);
-  if (!file.ok()) return file.status();
-  return std::unique_ptr<LogWriter>(new LogWriter(std::make_shared<State>(path, *std::move(file), buffer_bytes)));
+  RICOCHET_TRY(auto file, OpenPath(path));
+  return std::unique_ptr<LogWriter>(new LogWriter(std::make_shared<State>(path, std::move(file), buffer_bytes)));
 }
 
 LogWriter::LogWriter(std::shared_ptr<State> state) : state_(std::move(state)) {
@@ -210,10 +210,9 @@ bool LogWriter::Flush(milliseconds time) {
 
 absl::Status LogWriter::Reopen() {
   if (state_->path.empty()) return absl::OkStatus();
-  auto file = OpenPath(state_->path);
-  if (!file.ok()) return file.status();
+  RICOCHET_TRY(auto file, OpenPath(state_->path));
   const std::lock_guard lock(state_->mutex);
-  state_->reopened = *std::move(file);
+  state_->reopened = std::move(file);
   state_->changed.notify_all();
   return absl::OkStatus();
 }

@@ -12,6 +12,7 @@
 #include "absl/strings/str_join.h"
 #include "client/cli/io/csv_table.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -21,14 +22,13 @@ using Json = nlohmann::json;
 // Adds an answer after checking it. `where` names its place in the file.
 absl::Status Add(const std::string& where, const std::string& name, const std::string& law,
                  const std::vector<double>& velocity, SimulatorAnswers& all) {
-  const absl::StatusOr<const ConformanceCase*> asked = FindConformanceCase(name, absl::StrCat(where, ".case"));
-  if (!asked.ok()) return asked.status();
+  RICOCHET_TRY(const ConformanceCase* asked, FindConformanceCase(name, absl::StrCat(where, ".case")));
   if (absl::Status status = CheckConformanceLaw(law, absl::StrCat(where, ".law")); !status.ok()) return status;
-  const auto answers_it = [&](const SimulatorAnswer& answer) { return answer.asked == *asked; };
+  const auto answers_it = [&](const SimulatorAnswer& answer) { return answer.asked == asked; };
   if (std::any_of(all.answers.begin(), all.answers.end(), answers_it)) {
     return absl::InvalidArgumentError(absl::StrCat(where, ".case = ", name, ": must not be answered twice"));
   }
-  const std::vector<std::string>& coordinates = (*asked)->coordinates;
+  const std::vector<std::string>& coordinates = asked->coordinates;
   if (velocity.size() != coordinates.size()) {
     return absl::InvalidArgumentError(absl::StrCat(where, ".velocity_after of ", name, " has ", velocity.size(),
                                                    " numbers: must have ", coordinates.size(), ", ",
@@ -40,7 +40,7 @@ absl::Status Add(const std::string& where, const std::string& name, const std::s
         where, ".velocity_after of ", name, ": must have numbers of a size below 1e100; leave out a case without any"));
   }
   all.answers.push_back(
-      {.asked = *asked,
+      {.asked = asked,
        .law = law,
        .velocity_after = Eigen::VectorXd::Map(velocity.data(), static_cast<Eigen::Index>(velocity.size()))});
   return absl::OkStatus();
@@ -67,16 +67,14 @@ absl::StatusOr<std::string> Text(const Json& object, const char* key, const std:
 absl::Status AddJson(const Json& object, const std::string& where, const std::string& general_law,
                      SimulatorAnswers& all) {
   if (absl::Status status = CheckKeys(object, where, {"case", "law", "velocity_after"}); !status.ok()) return status;
-  const absl::StatusOr<std::string> name = Text(object, "case", where);
-  if (!name.ok()) return name.status();
-  const absl::StatusOr<std::string> law = Text(object, "law", where);
-  if (!law.ok()) return law.status();
+  RICOCHET_TRY(const std::string name, Text(object, "case", where));
+  RICOCHET_TRY(const std::string law, Text(object, "law", where));
   const Json velocity = object.value("velocity_after", Json());
   const auto is_number = [](const Json& x) { return x.is_number(); };
   if (!velocity.is_array() || !std::all_of(velocity.begin(), velocity.end(), is_number)) {
     return absl::InvalidArgumentError(absl::StrCat(where, ".velocity_after: must be a list of numbers"));
   }
-  return Add(where, *name, law->empty() ? general_law : *law, velocity.get<std::vector<double>>(), all);
+  return Add(where, name, law.empty() ? general_law : law, velocity.get<std::vector<double>>(), all);
 }
 
 // Reads JSON whose objects have no key twice.
@@ -115,17 +113,15 @@ absl::StatusOr<SimulatorAnswers> ReadJson(const std::string& text, const std::st
   Json json;
   if (absl::Status status = ParseWithoutTwins(text, name, json); !status.ok()) return status;
   if (absl::Status status = CheckKeys(json, name, {"simulator", "law", "answers"}); !status.ok()) return status;
-  const absl::StatusOr<std::string> simulator = Text(json, "simulator", name);
-  if (!simulator.ok()) return simulator.status();
-  const absl::StatusOr<std::string> law = Text(json, "law", name);
-  if (!law.ok()) return law.status();
-  if (absl::Status status = CheckConformanceLaw(*law, absl::StrCat(name, ".law")); !status.ok()) return status;
-  all.simulator = *simulator;
+  RICOCHET_TRY(const std::string simulator, Text(json, "simulator", name));
+  RICOCHET_TRY(const std::string law, Text(json, "law", name));
+  if (absl::Status status = CheckConformanceLaw(law, absl::StrCat(name, ".law")); !status.ok()) return status;
+  all.simulator = simulator;
   const Json answers = json.value("answers", Json());
   if (!answers.is_array()) return absl::InvalidArgumentError(absl::StrCat(name, ".answers: must be a list"));
   for (const Json& answer : answers) {
     const std::string where = absl::StrCat("answers[", all.answers.size(), "]");
-    if (absl::Status status = AddJson(answer, where, *law, all); !status.ok()) return status;
+    if (absl::Status status = AddJson(answer, where, law, all); !status.ok()) return status;
   }
   return all;
 }
@@ -133,24 +129,21 @@ absl::StatusOr<SimulatorAnswers> ReadJson(const std::string& text, const std::st
 absl::StatusOr<SimulatorAnswers> ReadCsv(const std::string& text, const std::string& name) {
   SimulatorAnswers all;
   std::istringstream stream(text);
-  absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, name);
-  if (!reader.ok()) return reader.status();
+  RICOCHET_TRY(CsvReader reader, CsvReader::Open(stream, name));
   const std::vector<std::string> header = {"case", "law", "velocity_after"};
-  if (reader->header() != header) {
-    return absl::InvalidArgumentError(absl::StrCat(name, " has the header ", absl::StrJoin(reader->header(), ","),
+  if (reader.header() != header) {
+    return absl::InvalidArgumentError(absl::StrCat(name, " has the header ", absl::StrJoin(reader.header(), ","),
                                                    ": must have case,law,velocity_after"));
   }
   std::vector<std::string> cells;
   while (true) {
-    const absl::StatusOr<bool> has_row = reader->NextRow(cells);
-    if (!has_row.ok()) return has_row.status();
-    if (!*has_row) return all;
-    const std::string where = absl::StrCat("line ", reader->line());
+    RICOCHET_TRY(const bool has_row, reader.NextRow(cells));
+    if (!has_row) return all;
+    const std::string where = absl::StrCat("line ", reader.line());
     std::vector<double> velocity;
     for (size_t i = 2; i < cells.size(); ++i) {
-      const absl::StatusOr<double> number = ParseNumber(cells[i], absl::StrCat(where, ", cell ", i + 1));
-      if (!number.ok()) return number.status();
-      velocity.push_back(*number);
+      RICOCHET_TRY(const double number, ParseNumber(cells[i], absl::StrCat(where, ", cell ", i + 1)));
+      velocity.push_back(number);
     }
     absl::Status status = Add(where, cells[0], cells.size() > 1 ? cells[1] : "", velocity, all);
     if (!status.ok()) return status;

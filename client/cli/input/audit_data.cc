@@ -15,6 +15,7 @@
 #include "client/cli/input/short_name.h"
 #include "core/base/decimal.h"
 #include "core/base/nearest.h"
+#include "core/base/try.h"
 #include "core/scene/field.h"
 #include "core/scene/system_velocities.h"
 #include "ricochet/audit_columns.h"
@@ -90,14 +91,13 @@ absl::Status AuditTable::SetPlaces(const std::string& name) {
       places_.emplace_back();
       continue;
     }
-    const absl::StatusOr<std::string> full = FullColumn(cell, name);
-    if (!full.ok()) return full.status();
-    const std::optional<Place> place = PlaceOf(*full);
+    RICOCHET_TRY(const std::string full, FullColumn(cell, name));
+    const std::optional<Place> place = PlaceOf(full);
     if (!place.has_value()) return UnknownColumn(cell, name, known, fields_);
     if (std::count(places_.begin(), places_.end(), place) > 0) {
       return absl::InvalidArgumentError(absl::StrCat(name, " has the column ", cell, " twice"));
     }
-    if (!place->field.empty()) reader_.Define(i, cell, CellKindOf(*full));
+    if (!place->field.empty()) reader_.Define(i, cell, CellKindOf(full));
     places_.push_back(place);
   }
   const auto has = [this](size_t velocity) {
@@ -118,10 +118,9 @@ absl::Status AuditTable::SetPlaces(const std::string& name) {
 
 absl::StatusOr<AuditTable> AuditTable::Open(std::istream& stream, const std::string& name, const Scene& scene,
                                             const std::vector<std::string>& skipped) {
-  absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, name);
-  if (!reader.ok()) return reader.status();
-  if (absl::Status status = reader->Skip(skipped); !status.ok()) return status;
-  AuditTable table(*std::move(reader), scene);
+  RICOCHET_TRY(CsvReader reader, CsvReader::Open(stream, name));
+  if (absl::Status status = reader.Skip(skipped); !status.ok()) return status;
+  AuditTable table(std::move(reader), scene);
   if (absl::Status status = table.SetPlaces(name); !status.ok()) return status;
   return table;
 }
@@ -133,9 +132,7 @@ bool AuditTable::has_uncertainty() const {
 }
 
 absl::StatusOr<AuditRows> AuditTable::Next(size_t most) {
-  absl::StatusOr<CsvTable> read = reader_.Next(most);
-  if (!read.ok()) return read.status();
-  CsvTable& table = *read;
+  RICOCHET_TRY(CsvTable table, reader_.Next(most));
   AuditRows rows{
       .columns = {}, .inputs = {}, .lines = std::move(table.lines), .bad_cells = {}, .velocities = velocities_};
   rows.columns.rates_after.resize(velocities_.size());

@@ -7,6 +7,7 @@
 #include "absl/strings/str_split.h"
 #include "client/cli/input/short_name.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -22,13 +23,10 @@ absl::StatusOr<Values> ParseSpace(const std::vector<std::string>& parts, const s
     return InputError(what, absl::StrCat(parts[0], " with ", parts.size() - 1, " parts"),
                       absl::StrCat("be ", parts[0], ":START:STOP:COUNT"));
   }
-  const absl::StatusOr<double> start = ParseNumber(parts[1], absl::StrCat(what, ", START"), spelling);
-  if (!start.ok()) return start.status();
-  const absl::StatusOr<double> stop = ParseNumber(parts[2], absl::StrCat(what, ", STOP"), spelling);
-  if (!stop.ok()) return stop.status();
-  const absl::StatusOr<int64_t> count = ParseCount(parts[3], absl::StrCat(what, ", COUNT"));
-  if (!count.ok()) return count.status();
-  return Values(Space{*start, *stop, *count});
+  RICOCHET_TRY(const double start, ParseNumber(parts[1], absl::StrCat(what, ", START"), spelling));
+  RICOCHET_TRY(const double stop, ParseNumber(parts[2], absl::StrCat(what, ", STOP"), spelling));
+  RICOCHET_TRY(const int64_t count, ParseCount(parts[3], absl::StrCat(what, ", COUNT")));
+  return Values(Space{start, stop, count});
 }
 
 absl::StatusOr<Values> ParseValues(const std::string& text, const std::string& what, Spelling spelling) {
@@ -38,9 +36,8 @@ absl::StatusOr<Values> ParseValues(const std::string& text, const std::string& w
   if (parts.size() > 1) {
     return InputError(what, text, "be a list such as 0.1,1/3 or lin:START:STOP:COUNT or log:START:STOP:COUNT");
   }
-  absl::StatusOr<std::vector<double>> list = ParseNumbers(text, what, spelling);
-  if (!list.ok()) return list.status();
-  return Values(ListValues{*std::move(list)});
+  RICOCHET_TRY(std::vector<double> list, ParseNumbers(text, what, spelling));
+  return Values(ListValues{std::move(list)});
 }
 
 }  // namespace
@@ -50,13 +47,10 @@ absl::StatusOr<Axis> ParseAxis(const std::string& text, const Scene& scene) {
   if (equals == std::string::npos || equals == 0) {
     return InputError("--axis", text, "be PATH=VALUES, such as friction.kinetic_coefficient=0.1,1/3");
   }
-  absl::StatusOr<std::string> path = FullField(scene, text.substr(0, equals), "--axis");
-  if (!path.ok()) return path.status();
-  Axis axis{.path = *std::move(path), .values = {}};
-  absl::StatusOr<Values> values =
-      ParseValues(text.substr(equals + 1), absl::StrCat("--axis ", axis.path), SpellingOf(axis.path));
-  if (!values.ok()) return values.status();
-  axis.values = *std::move(values);
+  RICOCHET_TRY(std::string path, FullField(scene, text.substr(0, equals), "--axis"));
+  Axis axis{.path = std::move(path), .values = {}};
+  RICOCHET_TRY(axis.values,
+               ParseValues(text.substr(equals + 1), absl::StrCat("--axis ", axis.path), SpellingOf(axis.path)));
   return axis;
 }
 
@@ -66,18 +60,15 @@ absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text, const Scene&
   if (equals == std::string::npos || equals == 0 || colon == std::string::npos) {
     return InputError("--range", text, "be PATH=LOW:HIGH, such as friction.kinetic_coefficient=0.09:0.11");
   }
-  absl::StatusOr<std::string> path = FullField(scene, text.substr(0, equals), "--range");
-  if (!path.ok()) return path.status();
-  FieldRange range{.path = *std::move(path)};
+  RICOCHET_TRY(std::string path, FullField(scene, text.substr(0, equals), "--range"));
+  FieldRange range{.path = std::move(path)};
   const auto parse = [&](const std::string& end, const char* name) {
     return ParseNumber(end, absl::StrCat("--range ", range.path, ", ", name), SpellingOf(range.path));
   };
-  const absl::StatusOr<double> low = parse(text.substr(equals + 1, colon - equals - 1), "LOW");
-  if (!low.ok()) return low.status();
-  const absl::StatusOr<double> high = parse(text.substr(colon + 1), "HIGH");
-  if (!high.ok()) return high.status();
-  range.low = *low;
-  range.high = *high;
+  RICOCHET_TRY(const double low, parse(text.substr(equals + 1, colon - equals - 1), "LOW"));
+  RICOCHET_TRY(const double high, parse(text.substr(colon + 1), "HIGH"));
+  range.low = low;
+  range.high = high;
   return range;
 }
 
@@ -85,14 +76,10 @@ absl::Status ReadRange(const std::string& text, SweepRequest& request) {
   const std::vector<std::string> parts = Split(text, ':');
   if (parts.size() != 2) return InputError("--range", text, "be FIRST:END");
   if (!parts[0].empty()) {
-    const absl::StatusOr<int64_t> first = ParseCount(parts[0], "--range, FIRST");
-    if (!first.ok()) return first.status();
-    request.first_index = *first;
+    RICOCHET_TRY(request.first_index, ParseCount(parts[0], "--range, FIRST"));
   }
   if (!parts[1].empty()) {
-    const absl::StatusOr<int64_t> end = ParseCount(parts[1], "--range, END");
-    if (!end.ok()) return end.status();
-    request.end_index = *end;
+    RICOCHET_TRY(request.end_index, ParseCount(parts[1], "--range, END"));
   }
   return absl::OkStatus();
 }
@@ -104,10 +91,9 @@ absl::Status ListNames(const CommonOptions& common, const SceneOptions& options,
   if (common.format != Format::kText) {
     return InputError("--format", FormatName(common.format), "be text, because ? lists names");
   }
-  const absl::StatusOr<Scene> scene = options.any() ? ReadScene(options) : Scene{.system = Pendulum()};
-  if (!scene.ok()) return scene.status();
+  RICOCHET_TRY(const Scene scene, options.any() ? ReadScene(options) : Scene{.system = Pendulum()});
   std::string text;
-  for (const std::string& name : names_of(*scene)) absl::StrAppend(&text, name, "\n");
+  for (const std::string& name : names_of(scene)) absl::StrAppend(&text, name, "\n");
   return WriteOutput(common, text);
 }
 

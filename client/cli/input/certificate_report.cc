@@ -10,6 +10,7 @@
 #include "client/cli/text/number_input.h"
 #include "core/base/counted.h"
 #include "core/base/decimal.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 
@@ -20,9 +21,8 @@ void AddCertifiedOption(CLI::App& sub, std::string& digits) {
 
 absl::StatusOr<int32_t> ReadCertifiedDigits(const std::string& digits) {
   if (digits.empty()) return 0;
-  const absl::StatusOr<int64_t> count = ParseCount(digits, "--certified", kMostCertifiedDigits);
-  if (!count.ok()) return count.status();
-  return static_cast<int32_t>(*count);
+  RICOCHET_TRY(const int64_t count, ParseCount(digits, "--certified", kMostCertifiedDigits));
+  return static_cast<int32_t>(count);
 }
 
 std::string CertificateText(const Certificate& certificate) {

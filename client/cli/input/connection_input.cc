@@ -18,6 +18,7 @@
 #include "client/cli/input/file_option.h"
 #include "client/cli/text/number_input.h"
 #include "core/base/nearest.h"
+#include "core/base/try.h"
 #include "ricochet/engine_info.h"
 
 namespace ricochet::cli {
@@ -165,9 +166,7 @@ absl::StatusOr<ConnectionInput> Resolve(ConnectionInput input) {
   ConnectionInput file;
   if (input.config.empty()) input.config = FromEnvironment("config");
   if (!input.config.empty()) {
-    absl::StatusOr<ConnectionInput> read = ReadConfig(input.config);
-    if (!read.ok()) return read.status();
-    file = *std::move(read);
+    RICOCHET_TRY(file, ReadConfig(input.config));
   }
   for (const Setting& setting : kSettings) {
     std::string& value = input.*(setting.value);
@@ -195,15 +194,12 @@ absl::StatusOr<ClientOptions> ClientOptionsOf(const ConnectionInput& input) {
       .token = input.token,
       .token_file = input.token_file};
   if (!input.max_receive.empty()) {
-    const absl::StatusOr<int64_t> bytes = ParseCount(input.max_receive, "--max-receive", kMostReceiveBytes);
-    if (!bytes.ok()) return bytes.status();
-    client.max_receive_bytes = *bytes;
+    RICOCHET_TRY(client.max_receive_bytes, ParseCount(input.max_receive, "--max-receive", kMostReceiveBytes));
   }
   if (!input.deadline.empty()) {
-    const auto deadline = ParseDuration(input.deadline, "--deadline");
-    if (!deadline.ok()) return deadline.status();
-    client.deadline = *deadline;
-    client.sweep_deadline = *deadline;
+    RICOCHET_TRY(const auto deadline, ParseDuration(input.deadline, "--deadline"));
+    client.deadline = deadline;
+    client.sweep_deadline = deadline;
   }
   return client;
 }

@@ -8,6 +8,7 @@
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/number_input.h"
 #include "core/base/nearest.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -51,16 +52,12 @@ void AddDemandOptions(CLI::App& app, DemandOptions& options) {
 absl::StatusOr<DemandFields> ReadDemand(const DemandOptions& options) {
   DemandFields demand;
   if (!options.tolerance.empty()) {
-    const absl::StatusOr<double> tolerance = ParseNumber(options.tolerance, "--tolerance");
-    if (!tolerance.ok()) return tolerance.status();
-    demand.relative_tolerance = *tolerance;
+    RICOCHET_TRY(demand.relative_tolerance, ParseNumber(options.tolerance, "--tolerance"));
   }
-  absl::StatusOr<std::vector<Effect>> required = ReadEffects(options.required, "--require");
-  if (!required.ok()) return required.status();
-  absl::StatusOr<std::vector<Effect>> excluded = ReadEffects(options.excluded, "--exclude");
-  if (!excluded.ok()) return excluded.status();
-  demand.required = *std::move(required);
-  demand.excluded = *std::move(excluded);
+  RICOCHET_TRY(std::vector<Effect> required, ReadEffects(options.required, "--require"));
+  RICOCHET_TRY(std::vector<Effect> excluded, ReadEffects(options.excluded, "--exclude"));
+  demand.required = std::move(required);
+  demand.excluded = std::move(excluded);
   return demand;
 }
 

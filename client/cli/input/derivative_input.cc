@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/input/command_options.h"
 #include "client/cli/input/short_name.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 
@@ -24,14 +25,12 @@ absl::StatusOr<std::optional<DerivativePaths>> ReadDerivatives(const DerivativeO
   }
   DerivativePaths paths = {.of = {}, .by = {}, .find_thresholds = options.thresholds};
   for (const std::string& name : options.of) {
-    absl::StatusOr<std::string> of = FullName(name, known, "--derivatives");
-    if (!of.ok()) return of.status();
-    paths.of.push_back(*std::move(of));
+    RICOCHET_TRY(std::string of, FullName(name, known, "--derivatives"));
+    paths.of.push_back(std::move(of));
   }
   for (const std::string& name : options.by) {
-    absl::StatusOr<std::string> by = FullField(scene, name, "--by");
-    if (!by.ok()) return by.status();
-    paths.by.push_back(*std::move(by));
+    RICOCHET_TRY(std::string by, FullField(scene, name, "--by"));
+    paths.by.push_back(std::move(by));
   }
   return paths;
 }

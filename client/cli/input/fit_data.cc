@@ -20,6 +20,7 @@
 #include "client/cli/io/csv_table.h"
 #include "client/cli/text/number_input.h"
 #include "core/base/nearest.h"
+#include "core/base/try.h"
 #include "core/rows/column.h"
 #include "core/scene/field.h"
 #include "ricochet/error.h"
@@ -44,23 +45,21 @@ absl::StatusOr<Column> ColumnOf(const std::string& name, const Scene& scene) {
   const std::vector<std::string> numbers = ColumnPlaces(scene);
   std::vector<std::string> known = FieldPaths(scene);
   known.insert(known.end(), numbers.begin(), numbers.end());
-  absl::StatusOr<std::string> path = FullName(name, known, "--data, column");
-  if (!path.ok()) return path.status();
-  if (!absl::c_linear_search(known, *path)) {
+  RICOCHET_TRY(std::string path, FullName(name, known, "--data, column"));
+  if (!absl::c_linear_search(known, path)) {
     return absl::InvalidArgumentError(absl::StrCat(
         "--data has the column \"", absl::CEscape(name), "\": must be a number of the scene, one of the outcome, or ",
         "either with .sigma", DidYouMean(name, known), "; --skip-column leaves a column out"));
   }
-  const auto use = absl::c_linear_search(numbers, *path) ? Column::Use::kMeasured : Column::Use::kInput;
-  return Column{.use = use, .path = *std::move(path), .values = {}};
+  const auto use = absl::c_linear_search(numbers, path) ? Column::Use::kMeasured : Column::Use::kInput;
+  return Column{.use = use, .path = std::move(path), .values = {}};
 }
 
 // `others` are the paths of the columns that may have sigmas.
 absl::StatusOr<Column> SigmaColumnOf(const std::string& name, const std::vector<std::string>& others) {
   const std::string bare(absl::StripSuffix(name, kSigmaEnding));
-  absl::StatusOr<std::string> path = FullName(bare, others, "--data, column");
-  if (!path.ok()) return path.status();
-  if (absl::c_linear_search(others, *path)) return Column{.use = Column::Use::kSigma, .path = *path, .values = {}};
+  RICOCHET_TRY(std::string path, FullName(bare, others, "--data, column"));
+  if (absl::c_linear_search(others, path)) return Column{.use = Column::Use::kSigma, .path = path, .values = {}};
   return absl::InvalidArgumentError(
       absl::StrCat("--data has ", absl::CEscape(name), " but not ", absl::CEscape(bare), DidYouMean(bare, others)));
 }
@@ -74,11 +73,10 @@ absl::StatusOr<std::vector<std::optional<Column>>> ColumnsOf(const CsvReader& re
     for (size_t i = 0; i < columns.size(); ++i) {
       const std::string& name = reader.header()[i];
       if (reader.IsSkipped(i) || absl::EndsWith(name, kSigmaEnding) != for_sigmas) continue;
-      absl::StatusOr<Column> column = for_sigmas ? SigmaColumnOf(name, paths) : ColumnOf(name, scene);
-      if (!column.ok()) return column.status();
-      if (!given.emplace(column->use, column->path).second) return GivenTwice("--data, column", name);
-      if (!for_sigmas) paths.push_back(column->path);
-      columns[i] = *std::move(column);
+      RICOCHET_TRY(Column column, for_sigmas ? SigmaColumnOf(name, paths) : ColumnOf(name, scene));
+      if (!given.emplace(column.use, column.path).second) return GivenTwice("--data, column", name);
+      if (!for_sigmas) paths.push_back(column.path);
+      columns[i] = std::move(column);
     }
   }
   return columns;
@@ -107,26 +105,22 @@ absl::Status ReadRow(const CsvReader& reader, const std::vector<std::string>& ce
 }
 
 absl::StatusOr<std::vector<Column>> ReadTable(const FitDataOptions& options, const Scene& scene) {
-  const absl::StatusOr<std::string> text = ReadText(options.file);
-  if (!text.ok()) return text.status();
-  std::istringstream stream(*text);
-  absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, options.file == "-" ? "standard input" : options.file);
-  if (!reader.ok()) return reader.status();
-  if (absl::Status status = reader->Skip(options.skipped_columns); !status.ok()) return status;
-  absl::StatusOr<std::vector<std::optional<Column>>> columns = ColumnsOf(*reader, scene);
-  if (!columns.ok()) return columns.status();
+  RICOCHET_TRY(const std::string text, ReadText(options.file));
+  std::istringstream stream(text);
+  RICOCHET_TRY(CsvReader reader, CsvReader::Open(stream, options.file == "-" ? "standard input" : options.file));
+  if (absl::Status status = reader.Skip(options.skipped_columns); !status.ok()) return status;
+  RICOCHET_TRY(std::vector<std::optional<Column>> columns, ColumnsOf(reader, scene));
   bool has_rows = false;
   std::vector<std::string> cells;
   while (true) {
-    const absl::StatusOr<bool> has_row = reader->NextRow(cells);
-    if (!has_row.ok()) return has_row.status();
-    if (!*has_row) break;
+    RICOCHET_TRY(const bool has_row, reader.NextRow(cells));
+    if (!has_row) break;
     has_rows = true;
-    if (absl::Status status = ReadRow(*reader, cells, *columns); !status.ok()) return status;
+    if (absl::Status status = ReadRow(reader, cells, columns); !status.ok()) return status;
   }
   if (!has_rows) return absl::InvalidArgumentError("--data has a header but no rows: must have one at least");
   std::vector<Column> kept;
-  for (std::optional<Column>& column : *columns) {
+  for (std::optional<Column>& column : columns) {
     if (column.has_value()) kept.push_back(*std::move(column));
   }
   return kept;
@@ -136,24 +130,20 @@ absl::StatusOr<std::vector<Column>> ReadTable(const FitDataOptions& options, con
 absl::StatusOr<std::pair<std::string, std::string>> ReadPair(const std::string& option, const std::string& typed,
                                                              const std::vector<std::string>& known) {
   const size_t equals = typed.find('=');
-  const absl::StatusOr<std::string> name = FullName(typed.substr(0, equals), known, option);
-  if (!name.ok()) return name.status();
-  return std::pair(*name, equals == std::string::npos ? "" : typed.substr(equals + 1));
+  RICOCHET_TRY(const std::string name, FullName(typed.substr(0, equals), known, option));
+  return std::pair(name, equals == std::string::npos ? "" : typed.substr(equals + 1));
 }
 
 absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, FitRequest& request) {
   std::vector<std::string> paths;
   for (const std::string& typed : options.unknowns) {
-    const auto pair = ReadPair("--unknown", typed, FieldPaths(scene));
-    if (!pair.ok()) return pair.status();
+    RICOCHET_TRY(const auto pair, ReadPair("--unknown", typed, FieldPaths(scene)));
     FitUnknown& unknown = request.unknowns.emplace_back();
-    unknown.path = pair->first;
+    unknown.path = pair.first;
     paths.push_back(unknown.path);
-    if (pair->second.empty()) continue;
-    const absl::StatusOr<double> start =
-        ParseNumber(pair->second, absl::StrCat("--unknown ", unknown.path), SpellingOf(unknown.path));
-    if (!start.ok()) return start.status();
-    unknown.start = *start;
+    if (pair.second.empty()) continue;
+    RICOCHET_TRY(unknown.start,
+                 ParseNumber(pair.second, absl::StrCat("--unknown ", unknown.path), SpellingOf(unknown.path)));
   }
   std::set<std::string> bounded;
   for (const std::string& typed : options.bounds) {
@@ -169,16 +159,12 @@ absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, Fit
     for (const auto& [text, bound] : {std::pair(pair->second.substr(0, colon), &unknown.low),
                                       std::pair(pair->second.substr(colon + 1), &unknown.high)}) {
       if (text.empty()) continue;
-      const absl::StatusOr<double> number =
-          ParseNumber(text, absl::StrCat("--bound ", unknown.path), SpellingOf(unknown.path));
-      if (!number.ok()) return number.status();
-      *bound = *number;
+      RICOCHET_TRY(*bound, ParseNumber(text, absl::StrCat("--bound ", unknown.path), SpellingOf(unknown.path)));
     }
   }
   for (const std::string& typed : options.region) {
-    const absl::StatusOr<std::string> name = FullName(typed, paths, "--region");
-    if (!name.ok()) return name.status();
-    request.region.push_back(*name);
+    RICOCHET_TRY(const std::string name, FullName(typed, paths, "--region"));
+    request.region.push_back(name);
   }
   return absl::OkStatus();
 }
@@ -197,23 +183,21 @@ absl::Status ReadSigmas(const FitDataOptions& options, FitRequest& request) {
   for (const auto& [path, sigma] : sigmas) paths.push_back(path);
   std::set<std::string> given;
   for (const std::string& typed : options.sigmas) {
-    const auto pair = ReadPair("--sigma", typed, paths);
-    if (!pair.ok()) return pair.status();
-    const auto at = static_cast<size_t>(std::find(paths.begin(), paths.end(), pair->first) - paths.begin());
+    RICOCHET_TRY(const auto pair, ReadPair("--sigma", typed, paths));
+    const auto at = static_cast<size_t>(std::find(paths.begin(), paths.end(), pair.first) - paths.begin());
     if (at == paths.size()) {
       return InputError("--sigma", typed,
                         absl::StrCat("be NAME=SIGMA with the name of a column (", absl::StrJoin(paths, ", "), ")",
-                                     DidYouMean(pair->first, paths)));
+                                     DidYouMean(pair.first, paths)));
     }
-    const absl::StatusOr<double> sigma =
-        ParseNumber(pair->second, absl::StrCat("--sigma ", pair->first), SpellingOf(pair->first));
-    if (!sigma.ok()) return sigma.status();
-    if (!given.insert(pair->first).second) return GivenTwice("--sigma", pair->first);
+    RICOCHET_TRY(const double sigma,
+                 ParseNumber(pair.second, absl::StrCat("--sigma ", pair.first), SpellingOf(pair.first)));
+    if (!given.insert(pair.first).second) return GivenTwice("--sigma", pair.first);
     if (!sigmas[at].second->empty()) {
       return absl::InvalidArgumentError(
-          absl::StrCat("--sigma ", pair->first, " cannot be combined with a column ", pair->first, kSigmaEnding));
+          absl::StrCat("--sigma ", pair.first, " cannot be combined with a column ", pair.first, kSigmaEnding));
     }
-    *sigmas[at].second = {*sigma};
+    *sigmas[at].second = {sigma};
   }
   for (const FitMeasured& measured : request.measured) {
     if (!measured.sigma.empty()) continue;
@@ -226,10 +210,9 @@ absl::Status ReadSigmas(const FitDataOptions& options, FitRequest& request) {
 }  // namespace
 
 absl::StatusOr<FitRequest> ReadFit(const FitDataOptions& options, const Scene& scene) {
-  absl::StatusOr<std::vector<Column>> columns = ReadTable(options, scene);
-  if (!columns.ok()) return columns.status();
+  RICOCHET_TRY(std::vector<Column> columns, ReadTable(options, scene));
   FitRequest request = {.scene = scene};
-  for (Column& column : *columns) {
+  for (Column& column : columns) {
     if (column.use == Column::Use::kInput) {
       request.inputs.push_back({column.path, std::move(column.values), {}});
     } else if (column.use == Column::Use::kMeasured) {
@@ -237,7 +220,7 @@ absl::StatusOr<FitRequest> ReadFit(const FitDataOptions& options, const Scene& s
     }
   }
   const auto sigmas = SigmasOf(request);
-  for (Column& column : *columns) {
+  for (Column& column : columns) {
     if (column.use != Column::Use::kSigma) continue;
     const auto own = absl::c_find_if(sigmas, [&column](const auto& sigma) { return sigma.first == column.path; });
     const auto measured = absl::c_find_if(request.measured, [&](const auto& m) { return m.path == column.path; });

@@ -3,23 +3,22 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 #include "ricochet/client.h"
 #include "ricochet/engine_info.h"
 
 namespace ricochet::cli {
 
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {
-  const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
-  if (!connection.ok()) return connection.status();
-  if (connection->server.empty()) return absl::InvalidArgumentError("--server is required");
-  return ClientOptionsOf(*connection);
+  RICOCHET_TRY(const ConnectionInput connection, Resolve(options.connection));
+  if (connection.server.empty()) return absl::InvalidArgumentError("--server is required");
+  return ClientOptionsOf(connection);
 }
 
 absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads,
                                                    const Limits& limits, bool fan_out) {
-  const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
-  if (!connection.ok()) return connection.status();
-  const std::string& server = connection->server;
+  RICOCHET_TRY(const ConnectionInput connection, Resolve(options.connection));
+  const std::string& server = connection.server;
   if (fan_out && server.empty()) return absl::InvalidArgumentError("--fan-out needs --server A,B,...");
   if (server.empty()) {
     // The fingerprint is made here, so that no time that a command reports holds it.
@@ -34,12 +33,10 @@ absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options,
         "--threads", absl::StrCat(*threads),
         absl::StrCat("not be given with the server ", server, ", which computes with threads of its own"));
   }
-  absl::StatusOr<ClientOptions> client_options = ClientOptionsOf(*connection);
-  if (!client_options.ok()) return client_options.status();
-  if (fan_out) client_options->fan_out.emplace();
-  absl::StatusOr<Client> client = Client::Connect(*client_options);
-  if (!client.ok()) return client.status();
-  return std::make_unique<Client>(*std::move(client));
+  RICOCHET_TRY(ClientOptions client_options, ClientOptionsOf(connection));
+  if (fan_out) client_options.fan_out.emplace();
+  RICOCHET_TRY(Client client, Client::Connect(client_options));
+  return std::make_unique<Client>(std::move(client));
 }
 
 }  // namespace ricochet::cli

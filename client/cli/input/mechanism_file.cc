@@ -13,6 +13,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/io/npy_header.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -103,9 +104,8 @@ void Transpose(Array& array) {
 }
 
 absl::StatusOr<Array> ReadArray(zip_t* archive, const std::string& name) {
-  const absl::StatusOr<std::string> bytes = BytesOf(archive, name);
-  if (!bytes.ok()) return bytes.status();
-  std::istringstream stream(*bytes);
+  RICOCHET_TRY(const std::string bytes, BytesOf(archive, name));
+  std::istringstream stream(bytes);
   const absl::StatusOr<std::string> header = ReadNpyHeader(stream);
   if (!header.ok()) return absl::InvalidArgumentError(absl::StrCat(name, " ", header.status().message()));
   absl::string_view descr = *header;
@@ -113,7 +113,7 @@ absl::StatusOr<Array> ReadArray(zip_t* archive, const std::string& name) {
   const absl::string_view type = TakeUntil('\'', descr);
   const std::optional<std::vector<int64_t>> shape = ShapeIn(*header);
   std::optional<std::vector<double>> numbers;
-  if (has_type) numbers = NumbersOf(type, bytes->substr(static_cast<size_t>(stream.tellg())));
+  if (has_type) numbers = NumbersOf(type, bytes.substr(static_cast<size_t>(stream.tellg())));
   if (!numbers.has_value() || !shape.has_value()) {
     return absl::InvalidArgumentError(absl::StrCat(name, " has the type ", has_type ? type : "of a record",
                                                    ": must be float64, as ", name, ".astype(float) is"));
@@ -145,31 +145,27 @@ std::string ShapeOfJacobian(int64_t n, int64_t contacts, bool has_more_rows) {
 }
 
 absl::StatusOr<Mechanism> Read(const std::string& path, int64_t contacts) {
-  const absl::StatusOr<Archive> archive = Open(path);
-  if (!archive.ok()) return archive.status();
+  RICOCHET_TRY(const Archive archive, Open(path));
   Mechanism mechanism;
   // The rates come first, as they tell n.
-  const absl::StatusOr<Array> rates = ReadArray(archive->get(), "qdot");
-  if (!rates.ok()) return rates.status();
-  const auto n = static_cast<int64_t>(rates->numbers.size());
+  RICOCHET_TRY(const Array rates, ReadArray(archive.get(), "qdot"));
+  const auto n = static_cast<int64_t>(rates.numbers.size());
   const auto check = [](const char* name, const Array& array, bool holds, const std::string& rule) {
     if (holds) return absl::OkStatus();
     return absl::InvalidArgumentError(absl::StrCat(name, " has the shape ", ShapeText(array.shape), ": must ", rule));
   };
   using Shape = std::vector<int64_t>;
-  absl::Status status = check("qdot", *rates, rates->shape.size() == 1 && n > 0, "be (n,), with n at least 1");
+  absl::Status status = check("qdot", rates, rates.shape.size() == 1 && n > 0, "be (n,), with n at least 1");
   if (!status.ok()) return status;
-  const absl::StatusOr<Array> mass = ReadArray(archive->get(), "M");
-  if (!mass.ok()) return mass.status();
-  status = check("M", *mass, mass->shape == Shape{n, n}, absl::StrCat("be (", n, ", ", n, ") for the ", n, " of qdot"));
+  RICOCHET_TRY(const Array mass, ReadArray(archive.get(), "M"));
+  status = check("M", mass, mass.shape == Shape{n, n}, absl::StrCat("be (", n, ", ", n, ") for the ", n, " of qdot"));
   if (!status.ok()) return status;
-  const absl::StatusOr<Array> jacobian = ReadArray(archive->get(), "J");
-  if (!jacobian.ok()) return jacobian.status();
-  const Shape& shape = jacobian->shape;
-  status = check("J", *jacobian, shape == Shape{2 * contacts, n} || shape == Shape{3 * contacts, n},
+  RICOCHET_TRY(const Array jacobian, ReadArray(archive.get(), "J"));
+  const Shape& shape = jacobian.shape;
+  status = check("J", jacobian, shape == Shape{2 * contacts, n} || shape == Shape{3 * contacts, n},
                  ShapeOfJacobian(n, contacts, !shape.empty() && shape[0] > 3));
   if (!status.ok()) return status;
-  return Mechanism{.mass_matrix = mass->numbers, .jacobian = jacobian->numbers, .rates = rates->numbers};
+  return Mechanism{.mass_matrix = mass.numbers, .jacobian = jacobian.numbers, .rates = rates.numbers};
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "client/cli/input/mechanism_file.h"
 #include "client/cli/io/csv_table.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 #include "core/scene/field.h"
 #include "core/scene/numbers.h"
 #include "proto/text/message_text.h"
@@ -61,9 +62,8 @@ absl::Status SetByFlags(const SceneOptions& options, Scene& scene) {
       for (Violation& violation : ViolationsOf(number.status())) violations.push_back(std::move(violation));
       continue;
     }
-    const absl::StatusOr<Field> field = ResolveField(flag.field, scene);
-    if (!field.ok()) return field.status();
-    field->Set(*number);  // The solver says which rule of the scene it breaks.
+    RICOCHET_TRY(const Field field, ResolveField(flag.field, scene));
+    field.Set(*number);  // The solver says which rule of the scene it breaks.
   }
   return violations.empty() ? absl::OkStatus() : InvalidRequest(violations);
 }
@@ -75,9 +75,8 @@ absl::StatusOr<Scene> PendulumFromFlags(const SceneOptions& options) {
 }
 
 absl::StatusOr<Scene> MechanismFromFlags(const SceneOptions& options) {
-  absl::StatusOr<Mechanism> mechanism = ReadHeldMechanism(options, 1);
-  if (!mechanism.ok()) return mechanism.status();
-  Scene scene = {.system = *std::move(mechanism)};
+  RICOCHET_TRY(Mechanism mechanism, ReadHeldMechanism(options, 1));
+  Scene scene = {.system = std::move(mechanism)};
   if (absl::Status status = SetByFlags(options, scene); !status.ok()) return status;
   return scene;
 }
@@ -109,12 +108,11 @@ absl::StatusOr<Mechanism> ReadHeldMechanism(const SceneOptions& options, int64_t
   if (!mechanism.ok()) return mechanism.status();
   const auto coordinates = static_cast<int64_t>(mechanism->rates.size());
   for (const std::string& kept : options.kept) {
-    const absl::StatusOr<int64_t> coordinate = ParseCount(kept, "--keep");
-    if (!coordinate.ok()) return coordinate.status();
-    if (*coordinate < 0 || *coordinate >= coordinates) {
+    RICOCHET_TRY(const int64_t coordinate, ParseCount(kept, "--keep"));
+    if (coordinate < 0 || coordinate >= coordinates) {
       return InputError("--keep", kept, absl::StrCat("be in [0, ", coordinates, ")"));
     }
-    mechanism->kept_coordinates.push_back(static_cast<int32_t>(*coordinate));
+    mechanism->kept_coordinates.push_back(static_cast<int32_t>(coordinate));
   }
   mechanism->composite = options.composite;
   return mechanism;
@@ -204,16 +202,13 @@ absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
 
 absl::Status ReadAnyScene(const SceneOptions& options, std::variant<Scene, MultiContactScene>& scene) {
   if (options.file.empty()) {
-    absl::StatusOr<Scene> one = ReadScene(options);
-    if (!one.ok()) return one.status();
-    scene = *std::move(one);
+    RICOCHET_TRY(scene, ReadScene(options));
     return absl::OkStatus();
   }
   if (absl::Status status = CheckSources(options); !status.ok()) return status;
-  const absl::StatusOr<std::string> text = ReadText(options.file);
-  if (!text.ok()) return text.status();
+  RICOCHET_TRY(const std::string text, ReadText(options.file));
   AnyScene proto;
-  const std::string wrong = WhyNoScene(options.file, *text, proto);
+  const std::string wrong = WhyNoScene(options.file, text, proto);
   if (wrong.empty()) std::visit([&scene](const auto& its_scene) { scene = FromProto(its_scene); }, proto);
   return AsStatus(NameOf(options.file), wrong);
 }
@@ -252,11 +247,10 @@ absl::StatusOr<std::string> ReadText(const std::string& path) {
 }
 
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message) {
-  const absl::StatusOr<std::string> text = ReadText(path);
-  if (!text.ok()) return text.status();
+  RICOCHET_TRY(const std::string text, ReadText(path));
   // A file may be empty on purpose; a pipe is so if the program before it failed.
-  if (path == "-" && text->empty()) return absl::InvalidArgumentError("standard input is empty");
-  return ParseMessage(path, *text, message);
+  if (path == "-" && text.empty()) return absl::InvalidArgumentError("standard input is empty");
+  return ParseMessage(path, text, message);
 }
 
 absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message) {

@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -109,21 +110,16 @@ bool WritesShard(const CLI::App& app) {
 
 absl::StatusOr<ShardNumber> FindShard(const ShardInput& input) {
   const bool is_explicit = !input.index.empty() && !input.count.empty();
-  const absl::StatusOr<const Launcher*> launcher = is_explicit ? nullptr : FindLauncher();
-  if (!launcher.ok()) return launcher.status();
-  const absl::StatusOr<int64_t> count = FindCount(input, *launcher);
-  if (!count.ok()) return count.status();
-  if (*count < 1) return InputError("--shard-count", absl::StrCat(*count), "be at least 1");
-  const absl::StatusOr<int64_t> index = FindIndex(input, *launcher);
-  if (!index.ok()) return index.status();
-  if (*index >= 0 && *index < *count) return ShardNumber{.index = *index, .count = *count};
+  RICOCHET_TRY(const Launcher* launcher, is_explicit ? nullptr : FindLauncher());
+  RICOCHET_TRY(const int64_t count, FindCount(input, launcher));
+  if (count < 1) return InputError("--shard-count", absl::StrCat(count), "be at least 1");
+  RICOCHET_TRY(const int64_t index, FindIndex(input, launcher));
+  if (index >= 0 && index < count) return ShardNumber{.index = index, .count = count};
   if (!input.index.empty()) {
-    return InputError("--shard-index", input.index,
-                      absl::StrCat("be in [0, ", *count - 1, "], for ", *count, " shards"));
+    return InputError("--shard-index", input.index, absl::StrCat("be in [0, ", count - 1, "], for ", count, " shards"));
   }
-  return absl::InvalidArgumentError(absl::StrCat((*launcher)->index, " = ", std::getenv((*launcher)->index),
-                                                 " is shard ", *index, ", counted from 0, but there are only ", *count,
-                                                 " shards"));
+  return absl::InvalidArgumentError(absl::StrCat(launcher->index, " = ", std::getenv(launcher->index), " is shard ",
+                                                 index, ", counted from 0, but there are only ", count, " shards"));
 }
 
 }  // namespace ricochet::cli

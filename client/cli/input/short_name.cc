@@ -15,6 +15,7 @@
 #include "client/cli/text/field_table.h"
 #include "core/base/derivative_name.h"
 #include "core/base/nearest.h"
+#include "core/base/try.h"
 #include "core/rows/column.h"
 #include "core/scene/field.h"
 
@@ -91,11 +92,9 @@ CellKind CellKindOf(const std::string& path) {
 // Completes both names of a derivative: that of a number among `ofs`, and that of a field among `bys`.
 static absl::StatusOr<std::string> FullDerivative(const DerivativeName& name, const std::vector<std::string>& ofs,
                                                   const std::vector<std::string>& bys) {
-  absl::StatusOr<std::string> of = FullName(name.of, ofs, "--column");
-  if (!of.ok()) return of.status();
-  absl::StatusOr<std::string> by = FullName(name.by, bys, "--column");
-  if (!by.ok()) return by.status();
-  return DerivativeName{*std::move(of), *std::move(by)}.Text();
+  RICOCHET_TRY(std::string of, FullName(name.of, ofs, "--column"));
+  RICOCHET_TRY(std::string by, FullName(name.by, bys, "--column"));
+  return DerivativeName{std::move(of), std::move(by)}.Text();
 }
 
 // Completes the names in a column that is a derivative.
@@ -120,14 +119,12 @@ absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const s
           "--column ", name, ": is no number: sweep --regime prints regime and status, and solve --data always does"));
     }
     if (const auto derivative = ReadDerivativeName(absl::StripAsciiWhitespace(name))) {
-      absl::StatusOr<std::string> full = FullDerivative(*derivative, known, AllFieldPaths(scene));
-      if (!full.ok()) return full.status();
-      columns.push_back(*std::move(full));
+      RICOCHET_TRY(std::string full, FullDerivative(*derivative, known, AllFieldPaths(scene)));
+      columns.push_back(std::move(full));
       continue;
     }
-    auto full = FullColumns(known, places, {name});
-    if (!full.ok()) return full.status();
-    std::move(full->begin(), full->end(), std::back_inserter(columns));
+    RICOCHET_TRY(auto full, FullColumns(known, places, {name}));
+    std::move(full.begin(), full.end(), std::back_inserter(columns));
   }
   return columns;
 }
@@ -146,10 +143,9 @@ absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::stri
       if (columns.size() > before) continue;
     }
     const std::optional<DerivativeName> derivative = ReadDerivativeName(name);
-    absl::StatusOr<std::string> full =
-        derivative.has_value() ? FullDerivative(*derivative, known) : FullName(name, places, "--column");
-    if (!full.ok()) return full.status();
-    columns.push_back(*std::move(full));
+    RICOCHET_TRY(std::string full,
+                 derivative.has_value() ? FullDerivative(*derivative, known) : FullName(name, places, "--column"));
+    columns.push_back(std::move(full));
   }
   return columns;
 }

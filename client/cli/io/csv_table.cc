@@ -12,6 +12,7 @@
 #include "client/cli/text/number_input.h"
 #include "core/base/counted.h"
 #include "core/base/nearest.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -151,9 +152,8 @@ absl::StatusOr<CsvTable> CsvReader::Next(size_t most) {
   table.columns.resize(header_.size());
   std::vector<std::string> cells;
   while (table.lines.size() < most) {
-    const absl::StatusOr<bool> has_row = NextRow(cells);
-    if (!has_row.ok()) return has_row.status();
-    if (!*has_row) break;
+    RICOCHET_TRY(const bool has_row, NextRow(cells));
+    if (!has_row) break;
     table.lines.push_back(number_);
     Append(cells, table);
   }

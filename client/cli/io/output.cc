@@ -18,6 +18,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -102,9 +103,8 @@ bool IsDevice(const std::string& path) {
 }
 
 absl::StatusOr<AtomicFile> AtomicFile::Create(const std::string& path) {
-  const absl::StatusOr<std::string> written = FileToWrite(path);
-  if (!written.ok()) return written.status();
-  const std::filesystem::path target = *written;
+  RICOCHET_TRY(const std::string written, FileToWrite(path));
+  const std::filesystem::path target = written;
   std::string name = absl::StrCat(target.parent_path().string(), "/.", target.filename().string(), ".XXXXXX");
   AtomicFile file;
   file.descriptor_ = mkostemp(name.data(), O_CLOEXEC);
@@ -141,10 +141,9 @@ absl::StatusOr<Output> Output::Open(const std::string& path) {
     if (descriptor < 0) return SystemError(absl::StrCat("cannot write ", path));
     return Output(std::nullopt, descriptor, true);
   }
-  absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
-  if (!file.ok()) return file.status();
-  const int descriptor = file->descriptor();
-  return Output(*std::move(file), descriptor, false);
+  RICOCHET_TRY(AtomicFile file, AtomicFile::Create(path));
+  const int descriptor = file.descriptor();
+  return Output(std::move(file), descriptor, false);
 }
 
 Output::Output(Output&& other) noexcept
@@ -157,10 +156,9 @@ Output::~Output() {
 absl::Status Output::Commit() { return file_.has_value() ? file_->Commit() : absl::OkStatus(); }
 
 absl::Status WriteFile(const std::string& path, std::string_view text) {
-  absl::StatusOr<Output> output = Output::Open(path);
-  if (!output.ok()) return output.status();
-  if (absl::Status status = output->Write(text); !status.ok()) return status;
-  return output->Commit();
+  RICOCHET_TRY(Output output, Output::Open(path));
+  if (absl::Status status = output.Write(text); !status.ok()) return status;
+  return output.Commit();
 }
 
 bool IsReaderGone(const absl::Status& status) { return status.GetPayload(kReaderGoneUrl).has_value(); }

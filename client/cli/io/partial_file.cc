@@ -17,6 +17,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/io/output.h"
 #include "client/cli/io/used_files.h"
+#include "core/base/try.h"
 #include "proto/wire/crc32c.h"
 
 namespace ricochet::cli {
@@ -80,15 +81,13 @@ PartialFile::~PartialFile() {
 }
 
 absl::StatusOr<PartialFile> PartialFile::Open(const std::string& path, const Partial& wanted, bool resume) {
-  absl::StatusOr<std::string> target = FileToWrite(path);
-  if (!target.ok()) return target.status();
+  RICOCHET_TRY(std::string target, FileToWrite(path));
   for (const char* ending : {".part", ".part.json", ".part.json.new"}) {
-    if (absl::Status status = UseFile(FileUse::kWritten, "", *target + ending); !status.ok()) return status;
+    if (absl::Status status = UseFile(FileUse::kWritten, "", target + ending); !status.ok()) return status;
   }
-  const absl::StatusOr<int> descriptor = OpenLocked(*target + ".part");
-  if (!descriptor.ok()) return descriptor.status();
-  PartialFile file(*std::move(target), *descriptor);
-  const bool has_points = SizeOf(*descriptor) > 0;
+  RICOCHET_TRY(const int descriptor, OpenLocked(target + ".part"));
+  PartialFile file(std::move(target), descriptor);
+  const bool has_points = SizeOf(descriptor) > 0;
   if (has_points && !resume) {
     return absl::InvalidArgumentError(absl::StrCat(file.part_path_, " is the first part of an unfinished sweep: add ",
                                                    "--resume to go on with it, or remove it"));

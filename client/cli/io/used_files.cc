@@ -10,6 +10,7 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/io/output.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -41,11 +42,10 @@ absl::StatusOr<std::string> IdentityOf(FileUse use, const std::string& path) {
   struct stat info;
   const bool exists = stat(path.c_str(), &info) == 0;
   if (use == FileUse::kRead) return exists ? InodeText(info) : path;
-  absl::StatusOr<std::string> target = FileToWrite(path);
-  if (!target.ok()) return target.status();
-  const std::string folder = std::filesystem::path(*target).parent_path();
+  RICOCHET_TRY(std::string target, FileToWrite(path));
+  const std::string folder = std::filesystem::path(target).parent_path();
   if (access(folder.c_str(), W_OK | X_OK) != 0) return absl::ErrnoToStatus(errno, absl::StrCat("cannot write ", path));
-  return exists ? InodeText(info) : *target;
+  return exists ? InodeText(info) : target;
 }
 
 }  // namespace
@@ -60,10 +60,9 @@ absl::Status UseFile(FileUse use, const std::string& flag, const std::string& pa
           absl::StrCat(first->second.name, " and ", name, " both read standard input: one must name a file"));
     }
   }
-  const absl::StatusOr<std::string> identity = IdentityOf(use, path);
-  if (!identity.ok()) return identity.status();
-  if (identity->empty()) return absl::OkStatus();
-  const auto [first, is_new] = AllUsed().insert({*identity, {.use = use, .name = name}});
+  RICOCHET_TRY(const std::string identity, IdentityOf(use, path));
+  if (identity.empty()) return absl::OkStatus();
+  const auto [first, is_new] = AllUsed().insert({identity, {.use = use, .name = name}});
   const Used& other = first->second;
   if (is_new || (use == FileUse::kRead && other.use == FileUse::kRead)) return absl::OkStatus();
   if (use == other.use) {

@@ -11,6 +11,7 @@
 #include "absl/strings/str_split.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/text/number_input.h"
+#include "core/base/try.h"
 #include "core/base/utf8.h"
 
 namespace ricochet::cli {
@@ -96,10 +97,9 @@ absl::Status CheckPicture(const PictureOptions& options) {
 
 absl::Status DrawWith(absl::StatusOr<Plot> plot, const PictureOptions& options) {
   if (!plot.ok()) return plot.status();
-  const absl::StatusOr<PictureSize> size = SizeOf(options);
-  if (!size.ok()) return size.status();
+  RICOCHET_TRY(const PictureSize size, SizeOf(options));
   if (!options.title.empty()) plot->title = options.title;
-  if (size->width > 0) std::tie(plot->width, plot->height) = std::pair(size->width, size->height);
+  if (size.width > 0) std::tie(plot->width, plot->height) = std::pair(size.width, size.height);
   for (Panel& panel : plot->panels) {
     panel.log_x = panel.log_x || (options.log_x && panel.y_ticks.empty());
     panel.log_y = panel.log_y || (options.log_y && panel.y_ticks.empty());

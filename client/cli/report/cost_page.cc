@@ -14,6 +14,7 @@
 #include "client/cli/report/cost_report.h"
 #include "client/cli/report/html_page.h"
 #include "core/base/decimal.h"
+#include "core/base/try.h"
 #include "proto/wire/scene.h"
 
 namespace ricochet::cli {
@@ -116,9 +117,8 @@ absl::StatusOr<std::string> Figure(const CostChunk& study, Plot (*plot)(const Co
   std::string text = "<figure>\n";
   for (const auto& [width, name] :
        {std::pair(PictureWidth::kWide, "wide"), std::pair(PictureWidth::kNarrow, "narrow")}) {
-    const absl::StatusOr<std::string> file = DrawAs(plot(study, width), "svg");
-    if (!file.ok()) return file.status();
-    absl::StrAppend(&text, "<div class=\"", name, "\">", InlineSvg(*file, absl::StrCat(id, "-", name, "-"), title),
+    RICOCHET_TRY(const std::string file, DrawAs(plot(study, width), "svg"));
+    absl::StrAppend(&text, "<div class=\"", name, "\">", InlineSvg(file, absl::StrCat(id, "-", name, "-"), title),
                     "</div>\n");
   }
   return absl::StrCat(text, HtmlElement("figcaption", caption), "\n</figure>\n");
@@ -174,22 +174,20 @@ std::string SystemText(const Scene& scene) {
 
 absl::StatusOr<std::string> CostPage(const Scene& scene, const CostChunk& study, const std::string& date) {
   const std::string title = absl::StrCat("What accuracy costs: one impact, ", SystemText(scene));
-  const absl::StatusOr<std::string> time =
-      Figure(study, CostTimePlot, "time", "Time of one solve over its error", kTimeCaption);
-  if (!time.ok()) return time.status();
-  const absl::StatusOr<std::string> claim =
-      Figure(study, CostClaimPlot, "claim", "Error made over error claimed", kClaimCaption);
-  if (!claim.ok()) return claim.status();
+  RICOCHET_TRY(const std::string time,
+               Figure(study, CostTimePlot, "time", "Time of one solve over its error", kTimeCaption));
+  RICOCHET_TRY(const std::string claim,
+               Figure(study, CostClaimPlot, "claim", "Error made over error claimed", kClaimCaption));
   return HtmlPage(
       title, absl::StrCat(HtmlElement("h1", title), "\n",
                           HtmlElement("p",
                                       absl::StrCat("Measured on ", date, " by ricochet ", study.engine.version, " on ",
                                                    MachineText(study.summary->machine), "."),
                                       " class=\"quiet\""),
-                          "\n", Facts(study), "<h2>Time and error</h2>\n", *time,
+                          "\n", Facts(study), "<h2>Time and error</h2>\n", time,
                           HtmlElement("h2", absl::StrCat("Errors claimed and made: ", study.summary->deceived, " of ",
                                                          AnswerCount(study), " claim too little")),
-                          "\n", *claim, "<h2>Methods</h2>\n", MethodsTable(study),
+                          "\n", claim, "<h2>Methods</h2>\n", MethodsTable(study),
                           "<p class=\"quiet\">● on the Pareto front: no other method is as fast and as exact.</p>\n",
                           "<h2>The method that the plan picks</h2>\n", PicksTable(study), Notes(study),
                           "<h2>What the columns mean</h2>\n", kColumns, "<h2>The scene</h2>\n",

@@ -11,6 +11,7 @@
 #include "absl/strings/str_join.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -168,11 +169,10 @@ Plot DurationPlot(const Outcome& outcome) {
 
 // Returns the events of the path, and the states between them that audits of the scene find.
 absl::StatusOr<std::vector<Event>> SpatialPath(const Solver& solver, const Scene& scene, const Outcome& outcome) {
-  const absl::StatusOr<AuditBatchResponse> parts =
-      solver.AuditBatch({.scene = scene, .columns = PartsOfTheWay(outcome, kPlotIntervals)});
-  if (!parts.ok()) return parts.status();
+  RICOCHET_TRY(const AuditBatchResponse parts,
+               solver.AuditBatch({.scene = scene, .columns = PartsOfTheWay(outcome, kPlotIntervals)}));
   std::vector<Event> path = outcome.timeline;
-  for (const AuditReport& report : parts->reports) {
+  for (const AuditReport& report : parts.reports) {
     if (report.regime == Regime::kInvalid || report.unexplained) continue;
     State& state = path.emplace_back().state;
     state.normal_impulse_n_s = report.normal_impulse;
@@ -205,14 +205,13 @@ Panel HodographPanel(const std::vector<Event>& path) {
 }
 
 absl::StatusOr<Plot> SpatialPlot(const Solver& solver, const Scene& scene, const Outcome& outcome) {
-  const absl::StatusOr<std::vector<Event>> path = SpatialPath(solver, scene, outcome);
-  if (!path.ok()) return path.status();
-  Panel velocity = VelocityPanel(*path);
-  Panel impulse = ImpulsePanel(*path);
+  RICOCHET_TRY(const std::vector<Event> path, SpatialPath(solver, scene, outcome));
+  Panel velocity = VelocityPanel(path);
+  Panel impulse = ImpulsePanel(path);
   MarkCompression(outcome, velocity);
   MarkCompression(outcome, impulse);
   return Plot{.title = absl::StrCat(Heading(outcome), Legend(outcome, true)),
-              .panels = {HodographPanel(*path), std::move(velocity), std::move(impulse)}};
+              .panels = {HodographPanel(path), std::move(velocity), std::move(impulse)}};
 }
 
 }  // namespace
@@ -242,9 +241,8 @@ absl::StatusOr<Plot> SolvePlot(const Solver& solver, const SolveRequest& request
   SolveRequest more = request;
   more.force_intervals = kPlotIntervals;
   more.certified_digits = 0;
-  const absl::StatusOr<SolveResponse> timed = solver.Solve(more);
-  if (!timed.ok()) return timed.status();
-  return DurationPlot(timed->outcome);
+  RICOCHET_TRY(const SolveResponse timed, solver.Solve(more));
+  return DurationPlot(timed.outcome);
 }
 
 }  // namespace ricochet::cli

@@ -17,6 +17,7 @@
 #include "client/cli/text/axis_cursor.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/field_table.h"
+#include "core/base/try.h"
 #include "core/rows/checked_rows.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/sweep.h"
@@ -294,17 +295,15 @@ absl::StatusOr<std::unique_ptr<NetcdfFile>> NetcdfFile::Create(const SweepReques
   if (path.empty() || IsDevice(path)) {
     return absl::InvalidArgumentError("NetCDF needs -o FILE: it cannot be written to standard output or a device");
   }
-  const absl::StatusOr<CheckedSweep> checked = CheckSweep(request);
-  if (!checked.ok()) return checked.status();
+  RICOCHET_TRY(const CheckedSweep checked, CheckSweep(request));
   if (absl::Status unusable = LoadNetcdf(); !unusable.ok()) return unusable;
-  absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
-  if (!file.ok()) return file.status();
+  RICOCHET_TRY(AtomicFile file, AtomicFile::Create(path));
   // Equal ranges are always written in the same way, so that equal sweeps give equal files.
   SweepRequest written = request;
-  written.end_index = checked->end;
-  if (checked->first == 0 && checked->end == PointCount(checked->grid)) written.end_index.reset();
-  auto sweep = std::make_unique<SweepFile>(std::move(written), *std::move(file));
-  if (absl::Status status = sweep->Open(checked->end - checked->first); !status.ok()) return status;
+  written.end_index = checked.end;
+  if (checked.first == 0 && checked.end == PointCount(checked.grid)) written.end_index.reset();
+  auto sweep = std::make_unique<SweepFile>(std::move(written), std::move(file));
+  if (absl::Status status = sweep->Open(checked.end - checked.first); !status.ok()) return status;
   return sweep;
 }
 

@@ -14,6 +14,7 @@
 #include "client/cli/sweep/sweep_file.h"
 #include "client/cli/sweep/sweep_rows.h"
 #include "client/cli/text/field_table.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -189,9 +190,8 @@ absl::Status ReadCodes(File& file, const std::vector<Variable>& variables, const
                        const std::string& name, int count, std::vector<Code>& codes) {
   const size_t variable = PlaceOf(name, variables);
   if (variable == variables.size()) return absl::OkStatus();
-  const absl::StatusOr<std::vector<double>> numbers = NumbersAtPoints(file, variables, contents, variable);
-  if (!numbers.ok()) return numbers.status();
-  for (const double number : *numbers) {
+  RICOCHET_TRY(const std::vector<double> numbers, NumbersAtPoints(file, variables, contents, variable));
+  for (const double number : numbers) {
     if (!(number >= 0.0 && number < count))
       return absl::InvalidArgumentError(absl::StrCat(name, " has a number that is no ", name));
     codes.push_back(static_cast<Code>(static_cast<int>(number)));
@@ -212,28 +212,24 @@ absl::StatusOr<SweepTable> ReadSweepNetcdf(const std::string& path, const std::v
   if (absl::Status unusable = LoadNetcdf(); !unusable.ok()) return unusable;
   File file(path);
   const std::vector<Variable> variables = file.Variables();
-  const absl::StatusOr<Contents> contents = ContentsOf(file, variables);
-  if (!contents.ok()) return contents.status();
-  absl::StatusOr<std::vector<std::string>> chosen = ChooseColumns(contents->columns, columns);
-  if (!chosen.ok()) return chosen.status();
+  RICOCHET_TRY(const Contents contents, ContentsOf(file, variables));
+  RICOCHET_TRY(std::vector<std::string> chosen, ChooseColumns(contents.columns, columns));
   SweepTable table;
-  table.columns = *std::move(chosen);
-  for (const size_t axis : contents->axes) {
+  table.columns = std::move(chosen);
+  for (const size_t axis : contents.axes) {
     table.axes.push_back(variables[axis].name);
-    absl::StatusOr<std::vector<double>> at = AtPoints(file, variables, *contents, axis);
-    if (!at.ok()) return at.status();
-    table.at.push_back(*std::move(at));
+    RICOCHET_TRY(std::vector<double> at, AtPoints(file, variables, contents, axis));
+    table.at.push_back(std::move(at));
     AddUnit(file, axis, variables[axis].name, table);
   }
   for (const std::string& name : table.columns) {
     const size_t column = PlaceOf(name, variables);
-    absl::StatusOr<std::vector<double>> values = NumbersAtPoints(file, variables, *contents, column);
-    if (!values.ok()) return values.status();
-    table.values.push_back(*std::move(values));
+    RICOCHET_TRY(std::vector<double> values, NumbersAtPoints(file, variables, contents, column));
+    table.values.push_back(std::move(values));
     AddUnit(file, column, name, table);
   }
-  absl::Status status = ReadCodes(file, variables, *contents, "regime", kRegimeCount, table.regimes);
-  status.Update(ReadCodes(file, variables, *contents, "status", kRowStatusCount, table.statuses));
+  absl::Status status = ReadCodes(file, variables, contents, "regime", kRegimeCount, table.regimes);
+  status.Update(ReadCodes(file, variables, contents, "status", kRowStatusCount, table.statuses));
   if (!status.ok()) return status;
   if (!file.status().ok()) return file.status();
   return table;

@@ -14,6 +14,7 @@
 #include "client/cli/io/npy_header.h"
 #include "client/cli/sweep/sweep_file.h"
 #include "client/cli/sweep/sweep_rows.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -50,14 +51,13 @@ std::vector<Field> FieldsIn(absl::string_view text) {
 }
 
 absl::StatusOr<NpyHeader> ReadHeader(std::istream& stream) {
-  const absl::StatusOr<std::string> text = ReadNpyHeader(stream);
-  if (!text.ok()) return text.status();
-  NpyHeader header = {.fields = FieldsIn(*text)};
+  RICOCHET_TRY(const std::string text, ReadNpyHeader(stream));
+  NpyHeader header = {.fields = FieldsIn(text)};
   for (const auto& [name, type] : header.fields) {
     if (type != "<f8" && type != "<i8" && type != "|u1") return NotRecords(absl::StrCat(name, " has the type ", type));
   }
   if (header.fields.empty()) return NotRecords("its numbers have no names");
-  const std::optional<std::vector<int64_t>> shape = ShapeIn(*text);
+  const std::optional<std::vector<int64_t>> shape = ShapeIn(text);
   if (!shape.has_value() || shape->size() != 1) return NotRecords("it has more than one dimension");
   header.records = shape->front();
   return header;
@@ -94,19 +94,17 @@ absl::Status AddRecord(const std::vector<Field>& fields, const char*& bytes, Swe
 }  // namespace
 
 absl::StatusOr<SweepTable> ReadSweepNpy(std::istream& stream, const std::vector<std::string>& columns) {
-  const absl::StatusOr<NpyHeader> header = ReadHeader(stream);
-  if (!header.ok()) return header.status();
+  RICOCHET_TRY(const NpyHeader header, ReadHeader(stream));
   std::vector<std::string> names;
   size_t record_bytes = 0;
-  for (const Field& field : header->fields) {
+  for (const Field& field : header.fields) {
     names.push_back(field.name);
     record_bytes += field.type == "|u1" ? 1u : 8u;
   }
-  absl::StatusOr<SweepRows> rows = SweepRows::Create(names, columns);
-  if (!rows.ok()) return rows.status();
-  if (header->records > SweepTable::kMostPoints) return TooManyPoints();
+  RICOCHET_TRY(SweepRows rows, SweepRows::Create(names, columns));
+  if (header.records > SweepTable::kMostPoints) return TooManyPoints();
   std::string bytes(kRecordsAtATime * record_bytes, '\0');
-  const auto records = static_cast<size_t>(header->records);
+  const auto records = static_cast<size_t>(header.records);
   for (size_t done = 0; done < records;) {
     const size_t count = std::min(kRecordsAtATime, records - done);
     stream.read(bytes.data(), static_cast<std::streamsize>(count * record_bytes));
@@ -116,11 +114,11 @@ absl::StatusOr<SweepTable> ReadSweepNpy(std::istream& stream, const std::vector<
     }
     const char* next = bytes.data();
     for (size_t i = 0; i < count; ++i) {
-      if (absl::Status status = AddRecord(header->fields, next, *rows); !status.ok()) return status;
+      if (absl::Status status = AddRecord(header.fields, next, rows); !status.ok()) return status;
     }
     done += count;
   }
-  return std::move(rows->table());
+  return std::move(rows.table());
 }
 
 }  // namespace ricochet::cli

@@ -14,6 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/io/output.h"
+#include "core/base/try.h"
 #include "core/rows/checked_rows.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/crc32c.h"
@@ -53,9 +54,8 @@ int64_t StartOf(int64_t index, int64_t count, int64_t points) {
 
 absl::StatusOr<SweepShard> MakeShard(const SweepRequest& request, ShardNumber number, const std::string& file) {
   if (file.empty()) return absl::InvalidArgumentError("a shard needs -o FILE: it is written to FILE.shard-I-of-N");
-  const absl::StatusOr<CheckedSweep> checked = CheckSweep(request);
-  if (!checked.ok()) return checked.status();
-  const int64_t points = checked->end - checked->first;
+  RICOCHET_TRY(const CheckedSweep checked, CheckSweep(request));
+  const int64_t points = checked.end - checked.first;
   SweepShard shard = {.number = number, .whole = request, .part = request, .path = ShardPath(file, number)};
   shard.whole.end_index = request.first_index + points;
   shard.part.first_index = request.first_index + StartOf(number.index, number.count, points);
@@ -66,15 +66,14 @@ absl::StatusOr<SweepShard> MakeShard(const SweepRequest& request, ShardNumber nu
 absl::StatusOr<bool> IsComplete(const SweepShard& shard) {
   std::error_code ignored;
   if (!std::filesystem::exists(shard.path, ignored)) return false;
-  const absl::StatusOr<ShardFile> found = ReadManifest(shard.path);
-  if (!found.ok()) return found.status();
-  const Shard& manifest = found->manifest;
+  RICOCHET_TRY(const ShardFile found, ReadManifest(shard.path));
+  const Shard& manifest = found.manifest;
   if (manifest.grid_fingerprint() != GridFingerprint(shard.whole) || manifest.first_index() != shard.part.first_index ||
       manifest.end_index() != shard.part.end_index || FromProto(manifest.sweep()) != shard.whole) {
     return absl::InvalidArgumentError(
-        absl::StrCat(found->Name(), " is of another sweep than the one asked for: name another file, or remove it"));
+        absl::StrCat(found.Name(), " is of another sweep than the one asked for: name another file, or remove it"));
   }
-  if (absl::Status status = CheckShardBytes(*found); !status.ok()) return status;
+  if (absl::Status status = CheckShardBytes(found); !status.ok()) return status;
   return true;
 }
 
@@ -145,9 +144,8 @@ absl::StatusOr<std::vector<ShardFile>> FindShardFiles(const std::string& file) {
   std::sort(paths.begin(), paths.end());
   std::vector<ShardFile> shards;
   for (const std::string& path : paths) {
-    absl::StatusOr<ShardFile> shard = ReadManifest(path);
-    if (!shard.ok()) return shard.status();
-    shards.push_back(*std::move(shard));
+    RICOCHET_TRY(ShardFile shard, ReadManifest(path));
+    shards.push_back(std::move(shard));
   }
   return shards;
 }

@@ -17,6 +17,7 @@
 #include "client/cli/io/csv_table.h"
 #include "client/cli/sweep/sweep_rows.h"
 #include "core/base/counted.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -47,23 +48,20 @@ absl::Status AddRow(const std::vector<std::string>& names, const std::vector<std
 }
 
 absl::StatusOr<SweepTable> ReadCsv(std::istream& stream, const std::vector<std::string>& columns) {
-  absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, "the table");
-  if (!reader.ok()) return reader.status();
-  const std::vector<std::string>& names = reader->header();
+  RICOCHET_TRY(CsvReader reader, CsvReader::Open(stream, "the table"));
+  const std::vector<std::string>& names = reader.header();
   if (absl::StartsWith(names.front(), "index ")) {
     return absl::InvalidArgumentError("is a table for people, which is rounded: write it with --format csv");
   }
   if (names.front() == "kind") return absl::InvalidArgumentError("is a summary, which has no points");
-  absl::StatusOr<SweepRows> rows = SweepRows::Create(names, columns);
-  if (!rows.ok()) return rows.status();
+  RICOCHET_TRY(SweepRows rows, SweepRows::Create(names, columns));
   std::vector<std::string> cells;
   for (int64_t points = 1;; ++points) {
-    const absl::StatusOr<bool> has_row = reader->NextRow(cells);
-    if (!has_row.ok()) return has_row.status();
-    if (!*has_row) return std::move(rows->table());
+    RICOCHET_TRY(const bool has_row, reader.NextRow(cells));
+    if (!has_row) return std::move(rows.table());
     if (points > SweepTable::kMostPoints) return TooManyPoints();
-    if (absl::Status status = AddRow(names, cells, *rows); !status.ok()) {
-      return absl::InvalidArgumentError(absl::StrCat("line ", reader->line(), ": ", status.message()));
+    if (absl::Status status = AddRow(names, cells, rows); !status.ok()) {
+      return absl::InvalidArgumentError(absl::StrCat("line ", reader.line(), ": ", status.message()));
     }
   }
 }

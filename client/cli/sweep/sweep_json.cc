@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/sweep/sweep_file.h"
 #include "client/cli/sweep/sweep_rows.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -42,10 +43,9 @@ class Points {
   explicit Points(std::vector<std::string> wanted) : wanted_(std::move(wanted)) {}
 
   absl::Status SetNames(std::vector<std::string> names) {
-    absl::StatusOr<SweepRows> rows = SweepRows::Create(names, wanted_);
-    if (!rows.ok()) return rows.status();
+    RICOCHET_TRY(SweepRows rows, SweepRows::Create(names, wanted_));
     names_ = std::move(names);
-    rows_ = *std::move(rows);
+    rows_ = std::move(rows);
     return absl::OkStatus();
   }
 

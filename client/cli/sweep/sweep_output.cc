@@ -10,6 +10,7 @@
 #include "absl/strings/str_replace.h"
 #include "client/cli/terminal/progress.h"
 #include "client/tally_checker.h"
+#include "core/base/try.h"
 #include "core/rows/checked_rows.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/engine.h"
@@ -40,28 +41,23 @@ Partial IdentityOf(const SweepRequest& request, const std::string& format) {
 // Returns how many points a table has, if the sweep is written as one.
 absl::StatusOr<int64_t> PointsOfTable(const SweepRequest& request, const CommonOptions& options, bool summary_only) {
   if (options.format != Format::kText || summary_only) return 0;
-  const absl::StatusOr<CheckedSweep> checked = CheckSweep(request);
-  if (!checked.ok()) return checked.status();
-  return RowsOfTable(options, checked->end - checked->first);
+  RICOCHET_TRY(const CheckedSweep checked, CheckSweep(request));
+  return RowsOfTable(options, checked.end - checked.first);
 }
 
 }  // namespace
 
 absl::StatusOr<SweepOutput> SweepOutput::Open(const SweepRequest& request, const CommonOptions& options,
                                               bool summary_only) {
-  const absl::StatusOr<int64_t> points = PointsOfTable(request, options, summary_only);
-  if (!points.ok()) return points.status();
-  SweepOutput output(MakeSweepWriter(request, options.format, summary_only, *points));
+  RICOCHET_TRY(const int64_t points, PointsOfTable(request, options, summary_only));
+  SweepOutput output(MakeSweepWriter(request, options.format, summary_only, points));
   output.progress_.set_next_index(request.first_index);
   if (options.format == Format::kNetcdf) {
-    absl::StatusOr<std::unique_ptr<NetcdfFile>> file = NetcdfFile::Create(request, options.output);
-    if (!file.ok()) return file.status();
-    output.netcdf_ = *std::move(file);
+    RICOCHET_TRY(output.netcdf_, NetcdfFile::Create(request, options.output));
     return output;
   }
-  absl::StatusOr<Output> opened = Output::Open(options.output);
-  if (!opened.ok()) return opened.status();
-  output.output_.emplace(*std::move(opened));
+  RICOCHET_TRY(Output opened, Output::Open(options.output));
+  output.output_.emplace(std::move(opened));
   return output;
 }
 
@@ -80,10 +76,9 @@ absl::StatusOr<SweepOutput> SweepOutput::OpenShard(const SweepShard& shard) {
 
 absl::StatusOr<SweepOutput> SweepOutput::OpenFile(const SweepRequest& request, const std::string& path,
                                                   const std::string& format, SweepWriter writer, bool resume) {
-  absl::StatusOr<PartialFile> file = PartialFile::Open(path, IdentityOf(request, format), resume);
-  if (!file.ok()) return file.status();
+  RICOCHET_TRY(PartialFile file, PartialFile::Open(path, IdentityOf(request, format), resume));
   SweepOutput output(std::move(writer));
-  output.file_.emplace(*std::move(file));
+  output.file_.emplace(std::move(file));
   output.progress_ = output.file_->manifest();
   output.earlier_ = FromProto(output.progress_.tallies());
   // The points that the manifest claims are in the file as if they had come in one chunk.
@@ -116,10 +111,9 @@ absl::Status SweepOutput::Write(const SweepChunk& chunk) {
   // The text may come to the terminal: a table, or the counts of invalid points.
   if (chunk.summary.has_value()) Progress::Erase();
   if (netcdf_ != nullptr) return netcdf_->Write(chunk);
-  const absl::StatusOr<std::string> text = writer_(chunk);
-  if (!text.ok()) return text.status();
-  if (!file_.has_value()) return output_->Write(*text);
-  if (absl::Status status = file_->Write(*text); !status.ok()) return status;
+  RICOCHET_TRY(const std::string text, writer_(chunk));
+  if (!file_.has_value()) return output_->Write(text);
+  if (absl::Status status = file_->Write(text); !status.ok()) return status;
   progress_.set_next_index(chunk.first_index + chunk.count);
   *progress_.mutable_engine() = ToProto(chunk.engine);
   *progress_.mutable_tallies() = ToProto(chunk.tallies);

@@ -12,6 +12,7 @@
 #include "client/cli/text/field_table.h"
 #include "core/base/derivative_name.h"
 #include "core/base/nearest.h"
+#include "core/base/try.h"
 
 namespace ricochet::cli {
 namespace {
@@ -57,10 +58,9 @@ absl::Status TooManyPoints() {
 
 absl::StatusOr<std::vector<std::string>> ChooseColumns(const std::vector<std::string>& columns,
                                                        const std::vector<std::string>& wanted) {
-  absl::StatusOr<std::vector<std::string>> chosen = FullColumns(columns, columns, wanted);
-  if (!chosen.ok()) return chosen.status();
+  RICOCHET_TRY(std::vector<std::string> chosen, FullColumns(columns, columns, wanted));
   std::set<std::string> seen;
-  for (const std::string& name : *chosen) {
+  for (const std::string& name : chosen) {
     if (PlaceOf(name, columns) == columns.size()) {
       return absl::InvalidArgumentError(absl::StrCat("--column ", name, ": must be a column of the file",
                                                      DidYouMean(name, columns),
@@ -70,7 +70,7 @@ absl::StatusOr<std::vector<std::string>> ChooseColumns(const std::vector<std::st
       return absl::InvalidArgumentError(absl::StrCat("--column ", name, ": must be named once"));
     }
   }
-  return chosen->empty() ? columns : *std::move(chosen);
+  return chosen.empty() ? columns : std::move(chosen);
 }
 
 absl::StatusOr<SweepRows> SweepRows::Create(const std::vector<std::string>& names,
@@ -79,9 +79,7 @@ absl::StatusOr<SweepRows> SweepRows::Create(const std::vector<std::string>& name
   SweepTable& table = rows.table_;
   std::vector<std::string> columns;
   if (absl::Status status = Sort(names, table.axes, columns); !status.ok()) return status;
-  absl::StatusOr<std::vector<std::string>> chosen = ChooseColumns(columns, wanted);
-  if (!chosen.ok()) return chosen.status();
-  table.columns = *std::move(chosen);
+  RICOCHET_TRY(table.columns, ChooseColumns(columns, wanted));
   table.at.resize(table.axes.size());
   table.values.resize(table.columns.size());
   for (const std::string& name : names) {

@@ -9,6 +9,7 @@
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
+#include "core/base/try.h"
 #include "ricochet/error.h"
 
 namespace ricochet::cli {
@@ -85,9 +86,8 @@ absl::StatusOr<double> ParseNumber(const std::string& text, const std::string& w
 absl::StatusOr<std::vector<double>> ParseNumbers(const std::string& text, const std::string& what, Spelling spelling) {
   std::vector<double> numbers;
   for (const auto part : absl::StrSplit(text, ',')) {
-    const absl::StatusOr<double> number = ParseNumber(std::string(part), what, spelling);
-    if (!number.ok()) return number.status();
-    numbers.push_back(*number);
+    RICOCHET_TRY(const double number, ParseNumber(std::string(part), what, spelling));
+    numbers.push_back(number);
   }
   return numbers;
 }
