@@ -99,21 +99,13 @@ RICOCHET_MAP(AuditResponse, report, contact_energy_j, engine);
 RICOCHET_MAP(AuditBatchRequest, scene, columns, inputs);
 RICOCHET_MAP(AuditBatchResponse, reports, summary, engine);
 
-void ToProto(const InputColumn& column, v1::InputColumn& proto) { Map<InputColumn>::kFields.Write(column, proto); }
-void FromProto(const v1::InputColumn& proto, InputColumn& column) { Map<InputColumn>::kFields.Read(proto, column); }
+RICOCHET_CONVERT_IN_PLACE(InputColumn);
 
 v1::AuditReport ToProto(const AuditReport& report) { return Sent(report); }
 
-v1::AuditRequest ToProto(const AuditRequest& request) { return Sent(request); }
-AuditRequest FromProto(const v1::AuditRequest& proto) { return Received<AuditRequest>(proto); }
-
-v1::AuditResponse ToProto(const AuditResponse& response) { return Sent(response); }
-AuditResponse FromProto(const v1::AuditResponse& proto) { return Received<AuditResponse>(proto); }
-
-v1::AuditBatchRequest ToProto(const AuditBatchRequest& request) { return Sent(request); }
-AuditBatchRequest FromProto(const v1::AuditBatchRequest& proto) { return Received<AuditBatchRequest>(proto); }
-
-v1::AuditBatchResponse ToProto(const AuditBatchResponse& response) { return Sent(response); }
-AuditBatchResponse FromProto(const v1::AuditBatchResponse& proto) { return Received<AuditBatchResponse>(proto); }
+RICOCHET_CONVERT(AuditRequest);
+RICOCHET_CONVERT(AuditResponse);
+RICOCHET_CONVERT(AuditBatchRequest);
+RICOCHET_CONVERT(AuditBatchResponse);
 
 }  // namespace ricochet

@@ -44,11 +44,8 @@ struct Map<BatchSetup> : Between<BatchSetup, v1::BatchSetup> {
 RICOCHET_MAP(BadRow, row, status, field, description);
 RICOCHET_MAP(BatchSummary, counts, bad_rows);
 
-v1::BatchSetup ToProto(const BatchSetup& setup) { return Sent(setup); }
-BatchSetup FromProto(const v1::BatchSetup& proto) { return Received<BatchSetup>(proto); }
-
-v1::BatchSummary ToProto(const BatchSummary& summary) { return Sent(summary); }
-BatchSummary FromProto(const v1::BatchSummary& proto) { return Received<BatchSummary>(proto); }
+RICOCHET_CONVERT(BatchSetup);
+RICOCHET_CONVERT(BatchSummary);
 
 void SetInputs(const BatchRows& rows, size_t first, size_t count, v1::SolveBatchRequest& request) {
   request.clear_inputs();

@@ -21,10 +21,7 @@ RICOCHET_MAP(CostSummary, reference, reference_source, reference_error, front, p
              machine, elapsed_s);
 RICOCHET_MAP_AS(CostChunk, v1::CostResponse, first_row, rows, rows_done, rows_total, summary, engine);
 
-v1::CostRequest ToProto(const CostRequest& request) { return Sent(request); }
-CostRequest FromProto(const v1::CostRequest& proto) { return Received<CostRequest>(proto); }
-
-v1::CostResponse ToProto(const CostChunk& chunk) { return Sent(chunk); }
-CostChunk FromProto(const v1::CostResponse& proto) { return Received<CostChunk>(proto); }
+RICOCHET_CONVERT(CostRequest);
+RICOCHET_CONVERT(CostChunk);
 
 }  // namespace ricochet

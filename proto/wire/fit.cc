@@ -24,10 +24,7 @@ RICOCHET_MAP(FitResponse, unknowns, covariance, correlation, rows, outliers, obj
              degrees_of_freedom, p_value, refused, starts, starts_differ, thresholds, region, exact_derivatives,
              why_differences, notes, engine);
 
-v1::FitRequest ToProto(const FitRequest& request) { return Sent(request); }
-FitRequest FromProto(const v1::FitRequest& proto) { return Received<FitRequest>(proto); }
-
-v1::FitResponse ToProto(const FitResponse& response) { return Sent(response); }
-FitResponse FromProto(const v1::FitResponse& proto) { return Received<FitResponse>(proto); }
+RICOCHET_CONVERT(FitRequest);
+RICOCHET_CONVERT(FitResponse);
 
 }  // namespace ricochet

@@ -59,7 +59,6 @@ RICOCHET_MAP(InfoResponse, engine, limits, server_limits, certified, systems, mo
 v1::InfoRequest ToProto(const InfoRequest& /*request*/) { return {}; }
 InfoRequest FromProto(const v1::InfoRequest& /*proto*/) { return {}; }
 
-v1::InfoResponse ToProto(const InfoResponse& response) { return Sent(response); }
-InfoResponse FromProto(const v1::InfoResponse& proto) { return Received<InfoResponse>(proto); }
+RICOCHET_CONVERT(InfoResponse);
 
 }  // namespace ricochet

@@ -11,7 +11,8 @@
 //   };
 //
 // The file that states the map then has ToProto(const PowerLaw&, v1::PowerLaw&) and FromProto(const v1::PowerLaw&,
-// PowerLaw&); where other files need them, its header declares them.
+// PowerLaw&). Where other files need them, its header declares them, and RICOCHET_CONVERT_IN_PLACE(PowerLaw) defines
+// them; RICOCHET_CONVERT(PowerLaw) defines those that return what they make.
 //
 // ToProto writes to a message without fields, FromProto to a struct as its constructor leaves it.
 
@@ -234,6 +235,15 @@ constexpr auto MakeField(Member member, Access access) {
     static constexpr auto kFields = Entries(RICOCHET_FIELDS(__VA_ARGS__)); \
   }
 #define RICOCHET_MAP(Struct, ...) RICOCHET_MAP_AS(Struct, v1::Struct, __VA_ARGS__)
+
+#define RICOCHET_CONVERT_IN_PLACE(Struct)                                                                 \
+  void ToProto(const Struct& value, Map<Struct>::P& proto) { Map<Struct>::kFields.Write(value, proto); }  \
+  void FromProto(const Map<Struct>::P& proto, Struct& value) { Map<Struct>::kFields.Read(proto, value); } \
+  static_assert(true)
+#define RICOCHET_CONVERT(Struct)                                                    \
+  Map<Struct>::P ToProto(const Struct& value) { return Sent(value); }               \
+  Struct FromProto(const Map<Struct>::P& proto) { return Received<Struct>(proto); } \
+  static_assert(true)
 
 // A part that is always sent, and that keeps the value of its constructor if a message lacks it.
 template <typename Field>

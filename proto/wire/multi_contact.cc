@@ -37,20 +37,9 @@ RICOCHET_MAP(MultiContactAnswer, verdict, differing_output, difference, outcome_
              stiffness_jumps, possible, refused);
 RICOCHET_MAP(MultiContactResponse, answers, engine);
 
-void ToProto(const MultiContactScene& scene, v1::MultiContactScene& proto) {
-  Map<MultiContactScene>::kFields.Write(scene, proto);
-}
-void FromProto(const v1::MultiContactScene& proto, MultiContactScene& scene) {
-  Map<MultiContactScene>::kFields.Read(proto, scene);
-}
-
-v1::MultiContactScene ToProto(const MultiContactScene& scene) { return Sent(scene); }
-MultiContactScene FromProto(const v1::MultiContactScene& proto) { return Received<MultiContactScene>(proto); }
-
-v1::MultiContactRequest ToProto(const MultiContactRequest& request) { return Sent(request); }
-MultiContactRequest FromProto(const v1::MultiContactRequest& proto) { return Received<MultiContactRequest>(proto); }
-
-v1::MultiContactResponse ToProto(const MultiContactResponse& response) { return Sent(response); }
-MultiContactResponse FromProto(const v1::MultiContactResponse& proto) { return Received<MultiContactResponse>(proto); }
+RICOCHET_CONVERT_IN_PLACE(MultiContactScene);
+RICOCHET_CONVERT(MultiContactScene);
+RICOCHET_CONVERT(MultiContactRequest);
+RICOCHET_CONVERT(MultiContactResponse);
 
 }  // namespace ricochet

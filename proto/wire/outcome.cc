@@ -7,21 +7,11 @@ namespace ricochet {
 
 RICOCHET_MAP(Coefficients, newton, poisson, energetic, tangential);
 
-void ToProto(const Coefficients& coefficients, v1::Coefficients& proto) {
-  Map<Coefficients>::kFields.Write(coefficients, proto);
-}
-void FromProto(const v1::Coefficients& proto, Coefficients& coefficients) {
-  Map<Coefficients>::kFields.Read(proto, coefficients);
-}
+RICOCHET_CONVERT_IN_PLACE(Coefficients);
 
 RICOCHET_MAP(ContactVelocity, tangential_m_s, normal_m_s);
 
-void ToProto(const ContactVelocity& velocity, v1::ContactVelocity& proto) {
-  Map<ContactVelocity>::kFields.Write(velocity, proto);
-}
-void FromProto(const v1::ContactVelocity& proto, ContactVelocity& velocity) {
-  Map<ContactVelocity>::kFields.Read(proto, velocity);
-}
+RICOCHET_CONVERT_IN_PLACE(ContactVelocity);
 
 RICOCHET_MAP(Impulse, normal_compression_n_s, normal_total_n_s, tangential_n_s);
 RICOCHET_MAP(WorkLedger, normal_compression_j, normal_restitution_j, tangential_compression_j, tangential_restitution_j,
@@ -52,27 +42,15 @@ RICOCHET_MAP(Derivative, of, by, kind, value, from_below, from_above, threshold,
 RICOCHET_MAP(CertifiedNumber, path, decimal, lower, upper, value, exact);
 RICOCHET_MAP(Certificate, digits, precision_bits, regimes, is_set, numbers);
 
-void ToProto(const Certificate& certificate, v1::Certificate& proto) {
-  Map<Certificate>::kFields.Write(certificate, proto);
-}
-void FromProto(const v1::Certificate& proto, Certificate& certificate) {
-  Map<Certificate>::kFields.Read(proto, certificate);
-}
+RICOCHET_CONVERT_IN_PLACE(Certificate);
 
 RICOCHET_MAP(Outcome, regime, termination, admissible, broken_limits, w_rank, coefficients, rates_after_rad_s,
              contact_velocity_after, impulse, work, energy_change_j, timeline, history, bodies_after, effective,
              accuracy, errors, notes, alternatives, plan, rates_after, momentum_change, free_end, contact, certificate,
              derivatives);
 
-void ToProto(const Derivative& derivative, v1::Derivative& proto) { Map<Derivative>::kFields.Write(derivative, proto); }
-void FromProto(const v1::Derivative& proto, Derivative& derivative) {
-  Map<Derivative>::kFields.Read(proto, derivative);
-}
-
-void ToProto(const Outcome& outcome, v1::Outcome& proto) { Map<Outcome>::kFields.Write(outcome, proto); }
-void FromProto(const v1::Outcome& proto, Outcome& outcome) { Map<Outcome>::kFields.Read(proto, outcome); }
-
-v1::Outcome ToProto(const Outcome& outcome) { return Sent(outcome); }
-Outcome FromProto(const v1::Outcome& proto) { return Received<Outcome>(proto); }
+RICOCHET_CONVERT_IN_PLACE(Derivative);
+RICOCHET_CONVERT_IN_PLACE(Outcome);
+RICOCHET_CONVERT(Outcome);
 
 }  // namespace ricochet

@@ -22,7 +22,6 @@ static void FromProto(const google::protobuf::RepeatedPtrField<v1::PlannedEffect
 
 RICOCHET_MAP(Plan, model, relative_tolerance, neglected, effects, arithmetic);
 
-void ToProto(const Plan& plan, v1::Plan& proto) { Map<Plan>::kFields.Write(plan, proto); }
-void FromProto(const v1::Plan& proto, Plan& plan) { Map<Plan>::kFields.Read(proto, plan); }
+RICOCHET_CONVERT_IN_PLACE(Plan);
 
 }  // namespace ricochet

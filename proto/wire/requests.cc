@@ -55,22 +55,11 @@ RICOCHET_MAP(FieldRange, path, low, high);
 RICOCHET_MAP(BoundsRequest, scene, ranges, certified_digits, derivatives);
 RICOCHET_MAP(BoundsResponse, bounds, engine, enclosure, certificate, derivatives);
 
-v1::SolveRequest ToProto(const SolveRequest& request) { return Sent(request); }
-SolveRequest FromProto(const v1::SolveRequest& proto) { return Received<SolveRequest>(proto); }
-
-v1::SolveResponse ToProto(const SolveResponse& response) { return Sent(response); }
-SolveResponse FromProto(const v1::SolveResponse& proto) { return Received<SolveResponse>(proto); }
-
-v1::PlanRequest ToProto(const PlanRequest& request) { return Sent(request); }
-PlanRequest FromProto(const v1::PlanRequest& proto) { return Received<PlanRequest>(proto); }
-
-v1::PlanResponse ToProto(const PlanResponse& response) { return Sent(response); }
-PlanResponse FromProto(const v1::PlanResponse& proto) { return Received<PlanResponse>(proto); }
-
-v1::BoundsRequest ToProto(const BoundsRequest& request) { return Sent(request); }
-BoundsRequest FromProto(const v1::BoundsRequest& proto) { return Received<BoundsRequest>(proto); }
-
-v1::BoundsResponse ToProto(const BoundsResponse& response) { return Sent(response); }
-BoundsResponse FromProto(const v1::BoundsResponse& proto) { return Received<BoundsResponse>(proto); }
+RICOCHET_CONVERT(SolveRequest);
+RICOCHET_CONVERT(SolveResponse);
+RICOCHET_CONVERT(PlanRequest);
+RICOCHET_CONVERT(PlanResponse);
+RICOCHET_CONVERT(BoundsRequest);
+RICOCHET_CONVERT(BoundsResponse);
 
 }  // namespace ricochet

@@ -78,13 +78,8 @@ struct Map<Scene> : Between<Scene, v1::Scene> {
            OneOf(RICOCHET_ACCESS(gravity), RICOCHET_ACCESS(pin_moment), RICOCHET_ACCESS(contact_acceleration))));
 };
 
-void ToProto(const Scene& scene, v1::Scene& proto) { Map<Scene>::kFields.Write(scene, proto); }
-void FromProto(const v1::Scene& proto, Scene& scene) { Map<Scene>::kFields.Read(proto, scene); }
-
-void ToProto(const Mechanism& mechanism, v1::Mechanism& proto) { Map<Mechanism>::kFields.Write(mechanism, proto); }
-void FromProto(const v1::Mechanism& proto, Mechanism& mechanism) { Map<Mechanism>::kFields.Read(proto, mechanism); }
-
-v1::Scene ToProto(const Scene& scene) { return Sent(scene); }
-Scene FromProto(const v1::Scene& proto) { return Received<Scene>(proto); }
+RICOCHET_CONVERT_IN_PLACE(Scene);
+RICOCHET_CONVERT_IN_PLACE(Mechanism);
+RICOCHET_CONVERT(Scene);
 
 }  // namespace ricochet

@@ -39,8 +39,7 @@ struct Map<SweepRequest> : Between<SweepRequest, v1::SweepRequest> {
 
 RICOCHET_MAP(Tally, count, first_index);
 
-void ToProto(const Tally& tally, v1::Tally& proto) { Map<Tally>::kFields.Write(tally, proto); }
-void FromProto(const v1::Tally& proto, Tally& tally) { Map<Tally>::kFields.Read(proto, tally); }
+RICOCHET_CONVERT_IN_PLACE(Tally);
 
 // The tallies that are not empty, each with the number that it has in its array. Tallies of numbers that this build
 // does not know are joined.
@@ -89,16 +88,9 @@ struct Map<SweepSummary> : Between<SweepSummary, v1::SweepSummary> {
                                           Defaulted(RICOCHET_FIELD(not_converged)), RICOCHET_FIELD(elapsed_s));
 };
 
-void ToProto(const SweepSummary& summary, v1::SweepSummary& proto) { Map<SweepSummary>::kFields.Write(summary, proto); }
-void FromProto(const v1::SweepSummary& proto, SweepSummary& summary) {
-  Map<SweepSummary>::kFields.Read(proto, summary);
-}
-
-v1::SweepRequest ToProto(const SweepRequest& request) { return Sent(request); }
-SweepRequest FromProto(const v1::SweepRequest& proto) { return Received<SweepRequest>(proto); }
-
-v1::SweepSummary ToProto(const SweepSummary& summary) { return Sent(summary); }
-SweepSummary FromProto(const v1::SweepSummary& proto) { return Received<SweepSummary>(proto); }
+RICOCHET_CONVERT_IN_PLACE(SweepSummary);
+RICOCHET_CONVERT(SweepRequest);
+RICOCHET_CONVERT(SweepSummary);
 
 void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto) {
   proto.set_first_index(chunk.first_index);
