@@ -2,19 +2,41 @@
 
 #include <grpc/grpc_security_constants.h>
 #include <grpcpp/security/auth_context.h>
+#include <openssl/err.h>
+#include <openssl/x509.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
+#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "client/server_address.h"
-#include "client/tls_files.h"
 #include "core/base/try.h"
+#include "proto/wire/pem.h"
 
 namespace ricochet {
 namespace {
+
+using pem::Certificate;
+using pem::Key;
+using pem::ParseCertificate;
+using pem::ParseKey;
+
+// Reads a file of the option `option`. An empty path gives an empty text.
+// Errors: INVALID_ARGUMENT that names the option, if the file cannot be read or is empty.
+absl::StatusOr<std::string> ReadSecurityFile(const std::string& path, const char* option) {
+  if (path.empty()) return std::string();
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file && text.tellp() > 0) return text.str();
+  return InvalidRequest({{option, absl::StrCat("= ", path, ": must be a file that can be read and is not empty")}});
+}
 
 // A header can carry these characters only, and a token has no white space.
 bool IsToken(const std::string& text) {
@@ -52,6 +74,58 @@ class TokenHeader final : public grpc::MetadataCredentialsPlugin {
   const std::string token_;
   const std::string file_;
 };
+
+// The contents of the files, in PEM form; empty for a file that is not named.
+struct TlsFiles {
+  std::string ca;
+  std::string cert;
+  std::string key;
+};
+
+Violation Holds(const char* option, const std::string& path, const char* rule) {
+  return {option, absl::StrCat("= ", path, ": must hold ", rule)};
+}
+
+// Returns what is wrong with the contents of the files.
+std::vector<Violation> Check(const TlsFiles& files, const SecurityOptions& options) {
+  std::vector<Violation> violations;
+  if (!files.ca.empty() && ParseCertificate(files.ca) == nullptr) {
+    violations.push_back(Holds("security.tls_ca", options.tls_ca, "a certificate in PEM form"));
+  }
+  if (files.cert.empty()) return violations;
+  const Certificate certificate = ParseCertificate(files.cert);
+  const Key key = ParseKey(files.key);
+  if (certificate == nullptr) {
+    violations.push_back(Holds("security.tls_cert", options.tls_cert, "a certificate in PEM form"));
+  } else if (X509_cmp_current_time(X509_get0_notAfter(certificate.get())) < 0) {
+    violations.push_back(Holds("security.tls_cert", options.tls_cert, "a certificate whose time has not ended"));
+  }
+  if (key == nullptr) {
+    violations.push_back(
+        Holds("security.tls_key", options.tls_key, "a private key in PEM form, without a pass phrase"));
+  } else if (certificate != nullptr && X509_check_private_key(certificate.get(), key.get()) != 1) {
+    violations.push_back(Holds("security.tls_key", options.tls_key, "the private key of security.tls_cert"));
+  }
+  return violations;
+}
+
+// Reads the files and checks that they hold certificates and the key of the client's certificate, and that this
+// certificate has not ended. Errors: INVALID_ARGUMENT with a violation for each option whose file is wrong.
+// gRPC says of a file that holds no key only that a server is unavailable, so that a program would try again for ever.
+absl::StatusOr<TlsFiles> ReadTlsFiles(const SecurityOptions& options) {
+  auto ca = ReadSecurityFile(options.tls_ca, "security.tls_ca");
+  auto cert = ReadSecurityFile(options.tls_cert, "security.tls_cert");
+  auto key = ReadSecurityFile(options.tls_key, "security.tls_key");
+  for (const auto* text : {&ca, &cert, &key}) {
+    if (!text->ok()) return text->status();
+  }
+  TlsFiles files = {.ca = *std::move(ca), .cert = *std::move(cert), .key = *std::move(key)};
+  const std::vector<Violation> violations = Check(files, options);
+  // gRPC would take what is left here for an error of its own.
+  ERR_clear_error();
+  if (!violations.empty()) return InvalidRequest(violations);
+  return files;
+}
 
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeTls(const SecurityOptions& options) {
   RICOCHET_TRY(const TlsFiles files, ReadTlsFiles(options));
