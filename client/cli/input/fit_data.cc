@@ -147,17 +147,16 @@ absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, Fit
   }
   std::set<std::string> bounded;
   for (const std::string& typed : options.bounds) {
-    const auto pair = ReadPair("--bound", typed, paths);
-    if (!pair.ok()) return pair.status();
-    const size_t colon = pair->second.find(':');
-    const auto at = static_cast<size_t>(std::find(paths.begin(), paths.end(), pair->first) - paths.begin());
+    RICOCHET_TRY(const auto pair, ReadPair("--bound", typed, paths));
+    const size_t colon = pair.second.find(':');
+    const auto at = static_cast<size_t>(std::find(paths.begin(), paths.end(), pair.first) - paths.begin());
     if (at == paths.size() || colon == std::string::npos) {
       return InputError("--bound", typed, "be NAME=LOW:HIGH with the name of an unknown");
     }
     FitUnknown& unknown = request.unknowns[at];
     if (!bounded.insert(unknown.path).second) return GivenTwice("--bound", unknown.path);
-    for (const auto& [text, bound] : {std::pair(pair->second.substr(0, colon), &unknown.low),
-                                      std::pair(pair->second.substr(colon + 1), &unknown.high)}) {
+    for (const auto& [text, bound] : {std::pair(pair.second.substr(0, colon), &unknown.low),
+                                      std::pair(pair.second.substr(colon + 1), &unknown.high)}) {
       if (text.empty()) continue;
       RICOCHET_TRY(*bound, ParseNumber(text, absl::StrCat("--bound ", unknown.path), SpellingOf(unknown.path)));
     }

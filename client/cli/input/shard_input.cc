@@ -57,15 +57,13 @@ absl::StatusOr<const Launcher*> FindLauncher() {
 absl::StatusOr<int64_t> PlaceOf(const Launcher& launcher) {
   const absl::StatusOr<int64_t> index = FromEnvironment(launcher.index);
   if (!index.ok() || launcher.first == nullptr) return index;
-  const absl::StatusOr<int64_t> first = FromEnvironment(launcher.first);
-  if (!first.ok()) return first;
-  const absl::StatusOr<int64_t> step = IsSet(kSlurmStep) ? FromEnvironment(kSlurmStep) : 1;
-  if (!step.ok()) return step;
-  if (*index < *first || *step < 1 || (*index - *first) % *step != 0) {
+  RICOCHET_TRY(const int64_t first, FromEnvironment(launcher.first));
+  RICOCHET_TRY(const int64_t step, IsSet(kSlurmStep) ? FromEnvironment(kSlurmStep) : 1);
+  if (*index < first || step < 1 || (*index - first) % step != 0) {
     return InputError(launcher.index, absl::StrCat(*index),
-                      absl::StrCat("be ", *first, " or a number of steps of ", *step, " above it"));
+                      absl::StrCat("be ", first, " or a number of steps of ", step, " above it"));
   }
-  return (*index - *first) / *step;
+  return (*index - first) / step;
 }
 
 absl::StatusOr<int64_t> FindCount(const ShardInput& input, const Launcher* launcher) {
