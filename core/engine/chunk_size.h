@@ -7,6 +7,7 @@
 #ifndef RICOCHET_CORE_ENGINE_CHUNK_SIZE_H_
 #define RICOCHET_CORE_ENGINE_CHUNK_SIZE_H_
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
@@ -24,7 +25,13 @@ class ChunkSize {
   static constexpr int64_t kMost = int64_t{512} << 10;
 
   // Returns the most bytes of values of the chunk that the reader asks for at `now`.
-  int64_t Next(Time now);
+  int64_t Next(Time now) {
+    if (bytes_ == 0) return bytes_ = kLeast;
+    const auto took = now - emitted_at_;
+    if (took < kSoon) bytes_ = std::min(2 * bytes_, kMost);
+    if (took > kLate) bytes_ = std::max(bytes_ / 2, kLeast);
+    return bytes_;
+  }
 
   // Says that the reader got that chunk at `now`.
   void Emitted(Time now) { emitted_at_ = now; }

@@ -16,7 +16,7 @@
 #include "core/base/invariant.h"
 #include "core/base/stable_hash.h"
 #include "core/contact/multi_reduction.h"
-#include "core/engine/fit_run.h"
+#include "core/engine/row_runs.h"
 #include "core/models/restitution_law.h"
 #include "core/multi/solve_multi_contact.h"
 #include "core/plan/demand.h"

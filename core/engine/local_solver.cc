@@ -20,15 +20,13 @@
 #include "core/base/invariant.h"
 #include "core/certified/certified.h"
 #include "core/cost/cost.h"
-#include "core/engine/audit_run.h"
 #include "core/engine/call_control.h"
 #include "core/engine/check_limits.h"
 #include "core/engine/check_solve.h"
 #include "core/engine/chunk_size.h"
-#include "core/engine/fit_run.h"
 #include "core/engine/helper_threads.h"
-#include "core/engine/info.h"
 #include "core/engine/parallel_batch.h"
+#include "core/engine/row_runs.h"
 #include "core/engine/sweep_run.h"
 #include "core/multi/solve_multi_contact.h"
 #include "core/plan/demand_fields.h"
@@ -339,8 +337,17 @@ CostStream LocalSolver::DoCost(const CostRequest& request, const CallOptions& op
 }
 
 absl::StatusOr<InfoResponse> LocalSolver::DoInfo(const InfoRequest& /*request*/, const CallOptions& options) const {
+  // The names are in the order of System, whose first alternative stands for no system.
+  static constexpr const char* kSystems[] = {"pendulum", "planar_body",    "spatial_body",    "body_pair",
+                                             "linkage",  "planar_contact", "spatial_contact", "mechanism"};
+  static_assert(std::size(kSystems) + 1 == std::variant_size_v<System>);
   if (absl::Status ended = CallControl(options).WhyEnded(); !ended.ok()) return ended;
-  return InfoOf(limits_);
+  InfoResponse info = {.engine = ThisEngine(),
+                       .limits = limits_,
+                       .certified = certified::IsAvailable(),
+                       .systems = {std::begin(kSystems), std::end(kSystems)}};
+  for (int number = 1; number < kModelCount; ++number) info.models.push_back(static_cast<Model>(number));
+  return info;
 }
 
 }  // namespace ricochet

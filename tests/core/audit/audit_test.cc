@@ -14,7 +14,7 @@
 
 #include "core/audit/audit_scene.h"
 #include "core/audit/coulomb_path.h"
-#include "core/engine/audit_run.h"
+#include "core/engine/row_runs.h"
 #include "core/models/restitution_law.h"
 #include "tests/support/scenes/known_contacts.h"
 #include "tests/support/scenes/spatial_contact.h"

@@ -1,7 +1,5 @@
 // Batches of audits that other threads help have the reports and the summary of those that nobody helps, and end soon.
 
-#include "core/engine/audit_run.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -10,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include "core/engine/row_runs.h"
 #include "tests/support/processes/counted_threads.h"
 #include "tests/support/processes/eventually.h"
 #include "tests/support/scenes/system_scenes.h"

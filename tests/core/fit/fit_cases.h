@@ -11,7 +11,7 @@
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
-#include "core/engine/fit_run.h"
+#include "core/engine/row_runs.h"
 #include "ricochet/fit.h"
 #include "ricochet/solver.h"
 

@@ -1,4 +1,4 @@
-#include "core/engine/audit_run.h"
+#include "core/engine/row_runs.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,7 +7,9 @@
 
 #include "absl/status/status.h"
 #include "core/audit/audit_batch.h"
+#include "core/engine/parallel_batch.h"
 #include "core/engine/piece_run.h"
+#include "core/fit/fit.h"
 
 namespace ricochet {
 
@@ -37,6 +39,15 @@ absl::StatusOr<AuditBatchResponse> RunAudits(const AuditBatchRequest& request, s
   if (!run.Run(make_work(), stopped)) return absl::CancelledError("the audit was stopped by its caller");
   response.summary = Summarize(response.reports);
   return response;
+}
+
+absl::StatusOr<FitResponse> RunFit(const FitRequest& request, std::shared_ptr<Helpers> helpers,
+                                   absl::FunctionRef<bool()> stopped) {
+  const auto open_rows = [&helpers](CheckedBatch batch) -> fit::SolveRows {
+    return [rows = std::make_unique<ParallelBatch>(std::move(batch), helpers)](
+               const BatchRows& all, absl::FunctionRef<bool()> is_stopped) { return rows->Solve(all, is_stopped); };
+  };
+  return FitScene(request, open_rows, stopped);
 }
 
 }  // namespace ricochet

@@ -1,12 +1,13 @@
-// RunAudits: a batch of audits, computed by the thread that asks and by others that help.
+// RunAudits and RunFit: calls whose rows are computed by the thread that asks and by others that help.
 
-#ifndef RICOCHET_CORE_ENGINE_AUDIT_RUN_H_
-#define RICOCHET_CORE_ENGINE_AUDIT_RUN_H_
+#ifndef RICOCHET_CORE_ENGINE_ROW_RUNS_H_
+#define RICOCHET_CORE_ENGINE_ROW_RUNS_H_
 
 #include <memory>
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
+#include "ricochet/fit.h"
 #include "ricochet/helpers.h"
 #include "ricochet/solver.h"
 
@@ -20,6 +21,11 @@ namespace ricochet {
 absl::StatusOr<AuditBatchResponse> RunAudits(const AuditBatchRequest& request, std::shared_ptr<Helpers> helpers,
                                              absl::FunctionRef<bool()> stopped);
 
+// Fits a scene (core/fit/fit.h). Null stands for no helpers. `stopped` is asked on this thread alone: before each row,
+// and every millisecond in which it waits for helpers. The engine is left to the caller. Errors: those of FitScene.
+absl::StatusOr<FitResponse> RunFit(const FitRequest& request, std::shared_ptr<Helpers> helpers,
+                                   absl::FunctionRef<bool()> stopped);
+
 }  // namespace ricochet
 
-#endif  // RICOCHET_CORE_ENGINE_AUDIT_RUN_H_
+#endif  // RICOCHET_CORE_ENGINE_ROW_RUNS_H_
