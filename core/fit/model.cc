@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/answer/exact_derivatives.h"
-#include "core/fit/differences.h"
 
 namespace ricochet::fit {
 namespace {

@@ -10,7 +10,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/fit/differences.h"
 
 namespace ricochet::fit {
 namespace {
