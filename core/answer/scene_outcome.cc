@@ -9,7 +9,7 @@
 #include "core/answer/rates_errors.h"
 #include "core/base/invariant.h"
 #include "core/plan/planned_scene.h"
-#include "core/plan/sliding_problem.h"
+#include "core/plan/scene_problem.h"
 #include "ricochet/error.h"
 
 namespace ricochet {

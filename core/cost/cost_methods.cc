@@ -7,10 +7,8 @@
 
 #include "core/answer/scene_outcome.h"
 #include "core/cost/methods_by_model.h"
-#include "core/plan/contact_scene.h"
 #include "core/plan/planned_scene.h"
 #include "core/plan/scene_problem.h"
-#include "core/plan/sliding_problem.h"
 
 namespace ricochet {
 namespace {

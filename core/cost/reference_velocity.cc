@@ -10,7 +10,7 @@
 #include "core/cost/certified_velocity.h"
 #include "core/models/pendulum/nearly_vertical_forms.h"
 #include "core/models/spatial/solver-inl.h"
-#include "core/plan/contact_scene.h"
+#include "core/plan/scene_problem.h"
 
 namespace ricochet {
 namespace {

@@ -49,8 +49,8 @@ using TakeRow = absl::FunctionRef<void(const SettledRow& row)>;
 // Settles all rows of the problem at each of some values of the unknowns, and gives them to `take` one after the other.
 // A search starts from the stated inputs, and from others nearby where f is not on its straight lines, as behind the
 // threshold of another course. J is that of central differences, and 0 for an input that is held at the end of its
-// range. If the best inputs lie on a corner of f, the residuals
-// have the sum of squares that belongs to the inputs found. Returns false once `solve` does.
+// range. If the best inputs lie on a corner of f, the residuals have the sum of squares that belongs to the inputs
+// found. Returns false once `solve` does.
 bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, TakeRow take);
 
 // The cube root of the rounding of a double: the step, over the size of a number, for which central differences are

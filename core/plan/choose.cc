@@ -11,7 +11,7 @@
 #include "core/models/sliding/sliding.h"
 #include "core/plan/candidates.h"
 #include "core/plan/perturbed_path.h"
-#include "core/plan/sliding_problem.h"
+#include "core/plan/scene_problem.h"
 
 namespace ricochet {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "core/contact/scene_contact.h"
 #include "core/plan/arithmetic.h"
-#include "core/plan/explain.h"
 #include "core/plan/scene_problem.h"
 
 namespace ricochet {

@@ -1,4 +1,5 @@
-// The Problem of each impact model for a scene that has been reduced to its contact (core/contact/reduction.h).
+// The Problem of each impact model for a scene that has been reduced to its contact (core/contact/reduction.h), and the
+// ways back and across: the scene that states a problem, and the same contact for another model.
 
 #ifndef RICOCHET_CORE_PLAN_SCENE_PROBLEM_H_
 #define RICOCHET_CORE_PLAN_SCENE_PROBLEM_H_
@@ -6,6 +7,7 @@
 #include "core/contact/reduction.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/planar/planar.h"
+#include "core/models/sliding/sliding.h"
 #include "core/models/spatial/spatial.h"
 #include "ricochet/outcome.h"
 #include "ricochet/scene.h"
@@ -40,6 +42,28 @@ Problem MakeProblem(const SpatialReduction& reduction, const Restitution& restit
                     const EffectiveCoefficients& effective, double tolerance);
 
 }  // namespace spatial
+
+// The scene that states a model's problem, for code that starts from a scene, such as certificates.
+Scene SceneOf(const pendulum::Problem& problem);
+Scene SceneOf(const planar::Problem& problem);
+
+// The same contact for the models whose slip neither stops nor turns.
+inline sliding::Problem<1> SlidingProblemOf(const planar::Problem& problem) {
+  return {.w = {problem.w.tt, problem.w.tn, problem.w.nn},
+          .u0 = {problem.u0},
+          .v0 = problem.v0,
+          .mu = problem.mu,
+          .coefficient = problem.coefficient};
+}
+
+inline sliding::Problem<2> SlidingProblemOf(const spatial::Problem& problem) {
+  return {.w = {problem.w11, problem.w12, problem.w13, problem.w22, problem.w23, problem.w33},
+          .u0 = problem.u0,
+          .v0 = problem.v0,
+          .mu = problem.mu,
+          .coefficient = problem.coefficient};
+}
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CORE_PLAN_SCENE_PROBLEM_H_

@@ -12,7 +12,7 @@
 #include "core/bounds/pendulum_bounds.h"
 #include "core/certified/certified.h"
 #include "core/models/restitution_law.h"
-#include "core/plan/contact_scene.h"
+#include "core/plan/scene_problem.h"
 #include "ricochet/solver.h"
 #include "tests/support/oracles/certificates.h"
 #include "tests/support/oracles/ulp.h"

@@ -14,7 +14,7 @@
 
 #include "core/answer/model_outcomes.h"
 #include "core/models/restitution_law.h"
-#include "core/plan/contact_scene.h"
+#include "core/plan/scene_problem.h"
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/solver.h"
 #include "tests/support/oracles/certificates.h"

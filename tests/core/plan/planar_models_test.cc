@@ -11,8 +11,8 @@
 
 #include "core/models/sliding/sliding.h"
 #include "core/plan/choose.h"
+#include "core/plan/scene_problem.h"
 #include "core/plan/sizes.h"
-#include "core/plan/sliding_problem.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
 #include "tests/support/scenes/plan_scenes.h"

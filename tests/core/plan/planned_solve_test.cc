@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/plan/contact_scene.h"
+#include "core/plan/scene_problem.h"
 #include "ricochet/solver.h"
 #include "tests/support/scenes/planar_scenes.h"
 #include "tests/support/scenes/system_scenes.h"

@@ -13,7 +13,7 @@
 
 #include "core/models/pendulum/first_order.h"
 #include "core/models/sliding/sliding.h"
-#include "core/plan/sliding_problem.h"
+#include "core/plan/scene_problem.h"
 #include "tests/support/claims/impact_change.h"
 #include "tests/support/claims/impact_tally.h"
 #include "tests/support/scenes/plan_scenes.h"

@@ -12,7 +12,7 @@
 #include "core/models/sliding/sliding.h"
 #include "core/models/spatial/spatial.h"
 #include "core/plan/choose.h"
-#include "core/plan/sliding_problem.h"
+#include "core/plan/scene_problem.h"
 #include "tests/support/claims/impact_change.h"
 
 namespace ricochet {

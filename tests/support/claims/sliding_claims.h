@@ -14,7 +14,7 @@
 
 #include "core/models/planar/planar.h"
 #include "core/models/sliding/sliding.h"
-#include "core/plan/sliding_problem.h"
+#include "core/plan/scene_problem.h"
 #include "tests/support/claims/claims.h"
 #include "tests/support/claims/number_claims.h"
 #include "tests/support/oracles/arb.h"

@@ -16,7 +16,6 @@
 #include "core/models/planar/planar.h"
 #include "core/models/spatial/spatial.h"
 #include "core/plan/scene_problem.h"
-#include "core/plan/sliding_problem.h"
 #include "tests/support/scenes/made_outcome.h"
 #include "tests/support/scenes/planar_scenes.h"
 #include "tests/support/scenes/spatial_scenes.h"
