@@ -29,7 +29,7 @@
 #include "core/engine/row_runs.h"
 #include "core/engine/sweep_run.h"
 #include "core/multi/solve_multi_contact.h"
-#include "core/plan/demand_fields.h"
+#include "core/plan/demand.h"
 #include "core/scene/rigid.h"
 #include "core/scene/validate.h"
 #include "core/scene/validate_multi.h"

@@ -9,6 +9,7 @@
 
 #include "core/contact/scene_contact.h"
 #include "core/plan/effect_set.h"
+#include "ricochet/demand.h"
 #include "ricochet/error.h"
 #include "ricochet/scene.h"
 
@@ -27,6 +28,9 @@ struct Demand {
   friend bool operator==(const Demand&, const Demand&) = default;
 };
 
+// What a request says of accuracy and effects.
+Demand ToDemand(const DemandFields& fields);
+
 // These effects do not exist without friction.
 inline constexpr EffectSet kOnFriction = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kStaticFriction,
                                           Effect::kTangentialCompliance, Effect::kHigherOrder};
@@ -44,8 +48,12 @@ EffectSet WithImplied(EffectSet excluded, bool in_space);
 // "relative_tolerance", "required[i]" and "excluded[i]", where i counts the effects of a set in order of their numbers.
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
-// Checks the tolerance, whatever the scene.
-void CheckTolerance(double relative_tolerance, std::vector<Violation>& violations);
+// Lists what is wrong with the fields of a request whatever the scene, which may break its own rules.
+std::vector<Violation> CheckDemand(const DemandFields& fields);
+
+// Lists the same as CheckDemand for ToDemand(fields), with the places that the effects have in the fields.
+std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact,
+                                   const DemandFields& fields);
 
 // Lists the excluded effects without which no model solves a valid scene: a contact whose slip cannot be a straight
 // line, a pendulum beyond first order. The list is empty if a model does, or if doubles cannot represent the contact.

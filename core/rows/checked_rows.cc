@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/plan/demand_fields.h"
+#include "core/plan/demand.h"
 #include "core/plan/number_demand.h"
 #include "core/rows/column.h"
 #include "core/rows/driven_scene.h"

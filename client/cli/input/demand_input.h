@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/plan/demand_fields.h"
+#include "core/plan/demand.h"
 
 namespace CLI {
 class App;

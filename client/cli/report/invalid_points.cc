@@ -8,7 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/types/span.h"
 #include "core/base/counted.h"
-#include "core/plan/demand_fields.h"
+#include "core/plan/demand.h"
 #include "core/plan/number_demand.h"
 #include "core/rows/axis_values.h"
 #include "core/rows/column.h"
