@@ -11,7 +11,6 @@
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/moved_contact.h"
 #include "core/plan/scene_problem.h"
-#include "core/scene/rigid.h"
 #include "core/scene/validate.h"
 
 namespace ricochet::audit {

@@ -30,7 +30,6 @@
 #include "core/engine/sweep_run.h"
 #include "core/multi/solve_multi_contact.h"
 #include "core/plan/demand.h"
-#include "core/scene/rigid.h"
 #include "core/scene/validate.h"
 #include "core/scene/validate_multi.h"
 #include "core/types/check_rows.h"

@@ -38,6 +38,14 @@ bool KeepsRelations(const Scene& scene, const AnyReduction* known, std::optional
 // False if KeepsRelations is true for all numbers that `scene` may have.
 bool HasRelations(const Scene& scene);
 
+// The directions in which a contact must be rigid.
+enum class RigidIn { kNormal, kBothDirections };
+
+// Names what makes a contact other than the rigid one without forces that audits and bounds know. A spring along the
+// normal alone changes no velocity after the impact, and one along the tangent none of the normal velocities where
+// Wtn = 0. All other rules of the scene must hold. `purpose` begins the reason: "for an audit".
+void RequireRigid(const Scene& scene, RigidIn directions, const char* purpose, std::vector<Violation>& violations);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CORE_SCENE_VALIDATE_H_
