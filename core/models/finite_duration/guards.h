@@ -1,4 +1,5 @@
-// Guards: the event functions of a mode. A mode lasts while its guards are >= 0.
+// Guards: the event functions of a mode, and the state of friction that follows where one has fallen. A mode lasts
+// while its guards are >= 0.
 //
 // A turning point of a force is watched, too, because its peak lies there.
 
@@ -27,6 +28,14 @@ using Guards = std::array<double, kGuards>;
 
 // A guard that does not apply is 1.
 Guards GuardsAt(const ScaledContact& contact, const Mode& mode, const Motion& y);
+
+FrictionState FrictionAtStart(const ScaledContact& contact);
+// The state of a tangentially rigid contact whose slip is 0, under the normal force `normal`.
+FrictionState FrictionAtRest(const ScaledContact& contact, double normal);
+// The state after kUpper or kLower has fallen; that of `mode` if it goes on.
+FrictionState FrictionAfter(const ScaledContact& contact, const Mode& mode, const Motion& y, Guard fallen);
+// Says whether v < 0 lasts for ever, which is so only if forces press a contact of rank one that friction holds.
+bool NeverReverses(const ScaledContact& contact, const Mode& mode, const Motion& y);
 
 }  // namespace ricochet::finite_duration
 

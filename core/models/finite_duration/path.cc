@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/models/finite_duration/friction.h"
 #include "core/models/finite_duration/guards.h"
 
 namespace ricochet::finite_duration {
