@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/cost/cost_kernel.h"
 #include "core/cost/methods_by_model.h"
-#include "core/cost/scaled.h"
 #include "core/models/pendulum/columns.h"
 #include "core/models/pendulum/first_order.h"
 

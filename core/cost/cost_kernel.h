@@ -12,11 +12,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "absl/functional/function_ref.h"
-#include "core/cost/scaled.h"
 #include "ricochet/cost.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 
@@ -57,6 +58,35 @@ void DoNotOptimize(const T& value) {
 // The factor of the velocity before impact number i of a batch, in (0.999, 1], so that no velocity exceeds the largest
 // double.
 inline double BatchFactor(int64_t i) { return 1.0 - 1e-3 * static_cast<double>(i) / static_cast<double>(kCostBatch); }
+
+// Any model's problem with its velocities before the impact multiplied, so that a batch has problems that differ.
+template <typename Problem>
+Problem Scaled(Problem problem, double factor) {
+  if constexpr (requires { problem.contact; }) {
+    problem.contact = Scaled(problem.contact, factor);
+  } else if constexpr (requires { problem.omega_minus; }) {
+    problem.omega_minus *= factor;
+  } else {
+    if constexpr (requires { problem.u0 *= factor; }) {
+      problem.u0 *= factor;
+    } else {
+      for (double& u : problem.u0) u *= factor;
+    }
+    problem.v0 *= factor;
+  }
+  return problem;
+}
+
+// A scene that can be certified: that of a pendulum or of a planar contact.
+template <>
+inline Scene Scaled(Scene scene, double factor) {
+  if (auto* pendulum = std::get_if<Pendulum>(&scene.system)) pendulum->omega_minus_rad_s *= factor;
+  if (auto* contact = std::get_if<PlanarContact>(&scene.system)) {
+    contact->tangential_m_s *= factor;
+    contact->normal_m_s *= factor;
+  }
+  return scene;
+}
 
 // `solve(problem, stopped)` gives the model's result, `read(problem, result)` a KernelAnswer.
 template <typename Problem, typename Solve, typename Read>
