@@ -15,7 +15,7 @@
 
 #include <array>
 
-#include "core/models/relative_errors.h"
+#include "core/models/impact_errors.h"
 #include "core/plan/demand.h"
 #include "core/plan/sizes.h"
 #include "ricochet/plan.h"

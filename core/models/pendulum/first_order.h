@@ -18,7 +18,6 @@
 #include "core/models/pendulum/nearly_vertical_forms.h"
 #include "core/models/pendulum/parts.h"
 #include "core/models/pendulum/pendulum.h"
-#include "core/models/relative_errors.h"
 #include "core/models/restitution_law.h"
 #include "core/numerics/moderate.h"
 

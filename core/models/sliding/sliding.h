@@ -18,7 +18,6 @@
 
 #include "core/models/impact_end.h"
 #include "core/models/impact_errors.h"
-#include "core/models/relative_errors.h"
 #include "ricochet/outcome.h"
 
 namespace ricochet::sliding {
