@@ -14,7 +14,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/numerics/determinant.h"
 #include "core/numerics/products.h"
 
 namespace ricochet {
@@ -29,7 +28,7 @@ inline constexpr double kRangeTolerance = 8.0 * std::numeric_limits<double>::eps
 struct PlanarDelassus {
   double tt = 0.0, tn = 0.0, nn = 0.0;
 
-  // det W/(Wtt Wnn), with the limits that core/numerics/determinant.h states.
+  // det W/(Wtt Wnn), with the limits that core/numerics/products.h states.
   double RelativeDeterminant() const { return ricochet::RelativeDeterminant(tt, tn, nn); }
   bool IsSemidefinite() const { return RelativeDeterminant() >= -kRankTolerance; }
   // 0 for W = 0, else 1 or 2.

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "core/contact/delassus.h"
-#include "core/numerics/determinant.h"
+#include "core/numerics/products.h"
 
 namespace ricochet {
 namespace {
