@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "absl/strings/str_cat.h"
-#include "core/certified/ball.h"
+#include "core/certified/flint.h"
 #include "core/numerics/elementary.h"
 
 namespace ricochet::certified {

@@ -16,4 +16,21 @@
 #include <arb_mat.h>
 #endif
 
+namespace ricochet::certified {
+
+// A FLINT ball (a midpoint with a radius) that frees itself.
+class Ball {
+ public:
+  Ball() { arb_init(value_); }
+  Ball(const Ball&) = delete;
+  Ball& operator=(const Ball&) = delete;
+  ~Ball() { arb_clear(value_); }
+  arb_struct* get() { return value_; }
+
+ private:
+  arb_t value_;
+};
+
+}  // namespace ricochet::certified
+
 #endif  // RICOCHET_CORE_CERTIFIED_FLINT_H_

@@ -1,7 +1,6 @@
 #include "core/certified/residual.h"
 
 #include "core/base/invariant.h"
-#include "core/certified/ball.h"
 #include "core/certified/digits.h"
 #include "core/certified/flint.h"
 #include "ricochet/certificate.h"

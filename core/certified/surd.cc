@@ -1,7 +1,7 @@
 #include "core/certified/surd.h"
 
 #include "core/base/invariant.h"
-#include "core/certified/ball.h"
+#include "core/certified/flint.h"
 
 namespace ricochet::certified {
 

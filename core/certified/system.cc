@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <variant>
 
-#include "core/certified/ball.h"
 #include "core/certified/flint.h"
 #include "core/models/restitution_law.h"
 
