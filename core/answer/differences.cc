@@ -1,11 +1,8 @@
 #include "core/answer/differences.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <optional>
 
 #include "core/answer/derivative_sides.h"
 #include "core/answer/scene_line.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "absl/functional/function_ref.h"
 #include "core/numerics/elementary.h"

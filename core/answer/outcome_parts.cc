@@ -1,7 +1,5 @@
 #include "core/answer/outcome_parts.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
-#include <utility>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
@@ -12,7 +10,6 @@
 #include "core/bounds/contact_bounds.h"
 #include "core/bounds/nearly_vertical.h"
 #include "core/bounds/pendulum_bounds.h"
-#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
 #include "core/plan/scene_problem.h"
 #include "core/types/named_ranges.h"

@@ -1,6 +1,5 @@
 #include "core/answer/scene_outcome.h"
 
-#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -8,7 +7,6 @@
 #include "core/answer/notes.h"
 #include "core/answer/rates_errors.h"
 #include "core/base/invariant.h"
-#include "core/plan/planned_scene.h"
 #include "core/plan/scene_problem.h"
 #include "ricochet/error.h"
 

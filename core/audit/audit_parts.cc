@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <type_traits>
-#include <utility>
 #include <variant>
 
-#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/moved_contact.h"
 #include "core/plan/scene_problem.h"
 #include "core/scene/validate.h"

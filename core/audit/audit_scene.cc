@@ -1,7 +1,6 @@
 #include "core/audit/audit_scene.h"
 
 #include <cmath>
-#include <utility>
 #include <variant>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "core/certified/surd.h"
 
 #include "core/base/invariant.h"
-#include "core/certified/flint.h"
 
 namespace ricochet::certified {
 

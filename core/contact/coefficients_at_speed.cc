@@ -1,7 +1,6 @@
 #include "core/contact/coefficients_at_speed.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <variant>
 #include <vector>

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <variant>
 

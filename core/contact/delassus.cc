@@ -1,10 +1,6 @@
 #include "core/contact/delassus.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-
-#include "core/numerics/products.h"
 
 namespace ricochet {
 

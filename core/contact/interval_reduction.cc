@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/contact/mechanism.h"
-#include "core/numerics/affine_interval.h"
 #include "core/numerics/interval_elementary.h"
 
 namespace ricochet {

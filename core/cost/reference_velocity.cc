@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 
 #include "core/certified/certified.h"
 #include "core/cost/certified_velocity.h"

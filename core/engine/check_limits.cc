@@ -1,7 +1,6 @@
 #include "core/engine/check_limits.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstring>
 #include <string>
 #include <variant>

@@ -8,7 +8,6 @@
 #include "core/answer/derivative_paths.h"
 #include "core/base/counted.h"
 #include "core/certified/certified.h"
-#include "core/plan/demand.h"
 #include "core/plan/number_demand.h"
 
 namespace ricochet {

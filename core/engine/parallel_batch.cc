@@ -1,6 +1,5 @@
 #include "core/engine/parallel_batch.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <optional>
-#include <string>
 #include <utility>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
-#include "core/contact/scene_contact.h"
 #include "core/plan/planned_scene.h"
 #include "core/plan/scene_problem.h"
 #include "core/scene/check.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/models/restitution_law.h"
-
 namespace ricochet {
 namespace {
 

@@ -1,9 +1,5 @@
 #include "core/plan/planned_scene.h"
 
-#include <optional>
-#include <variant>
-
-#include "core/contact/scene_contact.h"
 #include "core/plan/arithmetic.h"
 #include "core/plan/scene_problem.h"
 

@@ -4,10 +4,8 @@
 #include <iterator>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/plan/demand.h"
 #include "core/plan/number_demand.h"
 #include "core/rows/column.h"
 #include "core/rows/driven_scene.h"

@@ -1,7 +1,6 @@
 #include "core/rows/spatial_lanes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <variant>
 

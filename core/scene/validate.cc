@@ -1,13 +1,11 @@
 #include "core/scene/validate.h"
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/decimal.h"
-#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
 #include "core/scene/numbers.h"

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "core/models/finite_duration/history.h"
 #include "core/models/finite_duration/integrator.h"
