@@ -8,7 +8,6 @@
 #include "absl/strings/str_cat.h"
 #include "core/answer/scene_outcome.h"
 #include "core/bounds/contact_bounds.h"
-#include "core/bounds/nearly_vertical.h"
 #include "core/bounds/pendulum_bounds.h"
 #include "core/contact/reduction.h"
 #include "core/plan/scene_problem.h"

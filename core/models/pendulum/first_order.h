@@ -1,6 +1,6 @@
 // First order: the nearly vertical pendulum to first order in x = mu |b|/a, in plain double arithmetic, no square root.
 //
-// Lubarda (2009), sec. 9. The coefficients are the forms of core/bounds/nearly_vertical.h. tau0, f0 and the works of
+// Lubarda (2009), sec. 9. The coefficients are the forms of core/bounds/pendulum_bounds.h. tau0, f0 and the works of
 // compression are exact; tau1, f1, omega+ and all that follows from them have the errors of kappa and kappa_hat, which
 // are of order x^2. Works add up to the change of energy up to rounding. For x <= 1/2 and with c, the coefficient that
 // the law states, velocities are right to 2 c x^2 of max(|u0|, |v0|), and impulses times their mobility to (8/3) c x^2.

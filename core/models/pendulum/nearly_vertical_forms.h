@@ -1,5 +1,5 @@
 // Nearly vertical forms: the first-order forms of the coefficients and their errors, over a number type N, which is
-// double or a wider type. core/bounds/nearly_vertical.h derives them.
+// double or a wider type. core/bounds/pendulum_bounds.h derives them.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_NEARLY_VERTICAL_FORMS_H_
 #define RICOCHET_CORE_MODELS_PENDULUM_NEARLY_VERTICAL_FORMS_H_

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/bounds/nearly_vertical.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
 #include "tests/support/oracles/pendulum_oracle.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/answer/model_outcomes.h"
-#include "core/bounds/nearly_vertical.h"
+#include "core/bounds/pendulum_bounds.h"
 #include "core/models/restitution_law.h"
 #include "tests/support/scenes/made_outcome.h"
 #include "tests/support/scenes/pendulum_scenes.h"
