@@ -9,8 +9,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/certified/certified.h"
-#include "core/cost/certified_velocity.h"
 #include "core/cost/methods_by_model.h"
+#include "core/cost/reference_velocity.h"
 
 namespace ricochet {
 namespace {

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "core/base/invariant.h"
 #include "core/certified/certified.h"
-#include "core/cost/certified_velocity.h"
+#include "core/certified/residual.h"
 #include "core/models/pendulum/nearly_vertical_forms.h"
 #include "core/models/spatial/solver-inl.h"
 #include "core/plan/scene_problem.h"
@@ -48,6 +50,16 @@ NewtonCoefficientOf NewtonOf(const pendulum::Problem& problem, Stopped stopped) 
   const std::optional<Certificate> certificate = CertifyContact(SceneOf(problem), kReferenceDigits, stopped);
   if (certificate.has_value()) return {.value = ExactNumber(*certificate, "coefficients.newton"), .certified = true};
   return {.value = Exactly(pendulum::Solve(problem)[pendulum::Output::kNewton])};
+}
+
+constexpr char kTangentialPath[] = "contact_velocity_after.tangential_m_s[0]";
+constexpr char kNormalPath[] = "contact_velocity_after.normal_m_s";
+
+const CertifiedNumber& NumberOf(const Certificate& certificate, const std::string& path) {
+  const auto found = std::find_if(certificate.numbers.begin(), certificate.numbers.end(),
+                                  [&path](const CertifiedNumber& number) { return number.path == path; });
+  CheckInvariant(found != certificate.numbers.end(), "a certificate has the numbers of an outcome");
+  return *found;
 }
 
 }  // namespace
@@ -163,6 +175,36 @@ double Distance(const Velocity3& velocity, const ReferenceVelocity& exact) {
 double Distance(const ReferenceVelocity& one, const ReferenceVelocity& other) {
   double most = 0.0;
   for (size_t i = 0; i < one.of.size(); ++i) most = std::max(most, std::fabs(Rounded(one.of[i] - other.of[i])));
+  return most;
+}
+
+std::optional<Certificate> CertifyContact(const Scene& scene, int digits, Stopped stopped) {
+  if (!CheckCertifiable(scene, digits).empty()) return std::nullopt;
+  absl::StatusOr<Certificate> certificate = CertifySolve(scene, {.digits = digits}, stopped);
+  if (!certificate.ok() || certificate->is_set) return std::nullopt;
+  return *std::move(certificate);
+}
+
+Wide ExactNumber(const Certificate& certificate, const std::string& path) {
+  const CertifiedNumber& number = NumberOf(certificate, path);
+  return Wide::Exactly(number.value) + Wide::Exactly(certified::Residual(number.decimal, number.value));
+}
+
+ReferenceVelocity ReferenceVelocityOf(const Certificate& certificate) {
+  return {.of = {ExactNumber(certificate, kTangentialPath), Wide::Exactly(0.0), ExactNumber(certificate, kNormalPath)},
+          .error = 0x1p-104,
+          .source = kCertifiedSource};
+}
+
+Velocity3 RoundedVelocityOf(const Certificate& certificate) {
+  return {NumberOf(certificate, kTangentialPath).value, 0.0, NumberOf(certificate, kNormalPath).value};
+}
+
+double Distance(const Certificate& one, const Certificate& other) {
+  double most = 0.0;
+  for (const char* path : {kTangentialPath, kNormalPath}) {
+    most = std::max(most, std::fabs(certified::Residual(NumberOf(one, path).decimal, NumberOf(other, path).decimal)));
+  }
   return most;
 }
 

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "core/cost/cost_kernel.h"
@@ -23,6 +24,7 @@
 #include "core/models/sliding/sliding.h"
 #include "core/models/spatial/spatial.h"
 #include "core/numerics/wide.h"
+#include "ricochet/certificate.h"
 #include "ricochet/scene.h"
 
 namespace ricochet {
@@ -61,6 +63,23 @@ Velocity3 RoundedVelocity(const ReferenceVelocity& exact);
 // The largest component of the difference.
 double Distance(const Velocity3& velocity, const ReferenceVelocity& exact);
 double Distance(const ReferenceVelocity& one, const ReferenceVelocity& other);
+
+// The digits of references. Those of twice double precision are 32.
+inline constexpr int kReferenceDigits = 100;
+inline constexpr char kCertifiedSource[] = "certified to 100 digits";
+
+// Certifies a valid scene; nothing if it cannot be certified, if only a set is proved, or once `stopped` says true.
+std::optional<Certificate> CertifyContact(const Scene& scene, int digits, Stopped stopped);
+
+// The certified number of this path, to twice double precision.
+Wide ExactNumber(const Certificate& certificate, const std::string& path);
+
+// The contact velocity after the impact of a planar scene.
+ReferenceVelocity ReferenceVelocityOf(const Certificate& certificate);
+Velocity3 RoundedVelocityOf(const Certificate& certificate);
+
+// The largest component of the difference of two certificates' contact velocities, by their decimals.
+double Distance(const Certificate& one, const Certificate& other);
 
 }  // namespace ricochet
 

@@ -18,7 +18,7 @@ fuzzed_code() {
     contacts) find core/multi core/contact/multi_reduction.cc core/scene/validate_multi.cc -name '*.cc' ;;
     cost)
       find core/cost -name '*cost*.cc' -o -name '*_methods.cc' -o -name 'reference_velocity.cc' \
-        -o -name 'certified_velocity.cc' -o -name 'stopwatch.cc'
+        -o -name 'stopwatch.cc'
       ;;
     duration) find core/models/finite_duration core/contact/finite_forces.cc -name '*.cc' ;;
     fit) find core/fit -name '*.cc' ;;
