@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/contact/scene_contact.h"
-#include "core/scene/driven_fields.h"
+#include "core/scene/field.h"
 #include "ricochet/audit.h"
 #include "ricochet/error.h"
 #include "ricochet/scene.h"

@@ -19,7 +19,7 @@
 #include "core/contact/reduction.h"
 #include "core/contact/scene_contact.h"
 #include "core/rows/row_source.h"
-#include "core/scene/driven_fields.h"
+#include "core/scene/field.h"
 #include "ricochet/error.h"
 #include "ricochet/scene.h"
 
