@@ -3,7 +3,7 @@
 // The rise at a distance t is the least objective with the unknowns of the ray held at best + t direction, less that of
 // the best fit. Profile likelihood ends a 95 % interval where the rise is the quantile of chi-squared for one degree of
 // freedom, and a region of two unknowns where it is that for two (Cox and Snell; Meeker and Escobar, The American
-// Statistician 49 (1995) 48). A robust loss has another scale (core/fit/robust.h).
+// Statistician 49 (1995) 48). A robust loss has another scale (core/fit/information.h).
 
 #ifndef RICOCHET_CORE_FIT_PROFILE_H_
 #define RICOCHET_CORE_FIT_PROFILE_H_

@@ -14,7 +14,6 @@
 #include "core/engine/parallel_batch.h"
 #include "core/fit/information.h"
 #include "core/fit/judgement.h"
-#include "core/fit/robust.h"
 #include "ricochet/solver.h"
 #include "tests/core/fit/fit_cases.h"
 
