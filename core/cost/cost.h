@@ -1,12 +1,5 @@
 // CostStudy: what accuracy costs for one scene, method by method (ricochet/cost.h).
 //
-//   absl::StatusOr<CostStudy> study = CostStudy::Make(request);
-//   while (!study->ended()) {
-//     absl::StatusOr<CostChunk> chunk = study->NextChunk(stopped);
-//     if (!chunk.ok()) return chunk.status();
-//     Send(*chunk);
-//   }
-//
 // core/cost/cost_methods.h lists the methods, core/cost/reference_velocity.h their references, core/cost/stopwatch.h
 // says how they are timed, core/cost/cost_summary.h how the front and the picks are found. A method has an equal share
 // of the time that is left, one half for single solves and one for a batch, which is left out if it takes more than 2 %

@@ -1,12 +1,5 @@
 // SweepRun: a sweep computed chunk by chunk, by the thread that asks for the chunks and by others that help.
 //
-//   absl::StatusOr<SweepRun> run = SweepRun::Make(request);
-//   while (!run->ended()) {
-//     absl::StatusOr<SweepChunk> chunk = run->NextChunk(stopped);
-//     if (!chunk.ok()) return chunk.status();
-//     Send(*chunk);
-//   }
-//
 // All threads fill the same buffers, of one chunk each, with blocks of points that take a millisecond at most where a
 // point takes less. The first buffer becomes the next chunk once it is full. Between two chunks helpers fill one buffer
 // and then stop, so that a caller who is slow holds little. Neither the range asked for nor the chunks or threads

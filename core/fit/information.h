@@ -1,9 +1,9 @@
 // Information: what the residuals at a fit tell about each unknown, by their derivatives.
 //
 // With the weighted residuals r(x) and J = dr/dx, the covariance of the unknowns is (J^T J)^-1, times what a robust
-// loss adds (SpreadOf). J is divided by the lengths of its columns and decomposed into singular values, so
-// that no units matter. An unknown is not seen by itself, and has no variance, if its column of J counts as 0 or if it
-// has a part of a combination whose singular value counts as 0.
+// loss adds (SpreadOf). J is divided by the lengths of its columns and decomposed into singular values, so that no
+// units matter. An unknown is not seen by itself, and has no variance, if its column of J counts as 0 or if it has a
+// part of a combination whose singular value counts as 0.
 
 #ifndef RICOCHET_CORE_FIT_INFORMATION_H_
 #define RICOCHET_CORE_FIT_INFORMATION_H_

@@ -1,10 +1,4 @@
 // DrivenScene: the scene of each row of a sweep or of a batch in turn, as its fields get the values of the row.
-//
-//   DrivenScene driven(scene, paths);  // Refuse the request if driven.violations() has any.
-//   for (size_t i = 0; i < count; ++i) {
-//     driven.SetRow(source.At(first, count), i);
-//     if (driven.IsValid(contact)) Solve(driven.scene());
-//   }
 
 #ifndef RICOCHET_CORE_ROWS_DRIVEN_SCENE_H_
 #define RICOCHET_CORE_ROWS_DRIVEN_SCENE_H_

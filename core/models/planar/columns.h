@@ -1,11 +1,5 @@
 // Columns: many planar impacts of one law of restitution at once, in SIMD lanes, and only the outputs asked for.
 //
-//   const std::array outputs = {Output::kTangentialVelocityAfter, Output::kNormalVelocityAfter};
-//   const std::array columns = {u_after.data(), v_after.data()};
-//   SolveColumns({.law = law, .wtt = wtt, .wtn = wtn, .wnn = wnn, .u0 = u0, .v0 = v0, .mu = mu, .mu_static = mu_static,
-//                 .coefficient = coefficient},
-//                1e-12, {.outputs = outputs, .columns = columns, .regimes = regimes, .inadmissible = inadmissible});
-//
 // Each output is that of the first arithmetic whose bound on its rounding error is within the tolerance: plain double
 // arithmetic (SolvePlain), or double-double arithmetic (Solve), with the same bits. At tolerance 0 it is the latter. No
 // result depends on the other problems of the call. Nothing is allocated, and calls may run in parallel.
