@@ -260,27 +260,12 @@ std::vector<Violation> CheckSolvableWithout(const Scene& scene, std::optional<Sc
 }
 
 const char* NameOf(Effect effect) {
-  switch (effect) {
-    case Effect::kUnspecified:
-      return "unspecified";
-    case Effect::kFriction:
-      return "friction";
-    case Effect::kSlipStop:
-      return "slip_stop";
-    case Effect::kSlipTurn:
-      return "slip_turn";
-    case Effect::kStaticFriction:
-      return "static_friction";
-    case Effect::kTangentialCompliance:
-      return "tangential_compliance";
-    case Effect::kFiniteDuration:
-      return "finite_duration";
-    case Effect::kFiniteForces:
-      return "finite_forces";
-    case Effect::kHigherOrder:
-      return "higher_order";
-  }
-  return "unspecified";
+  constexpr const char* kNames[] = {"unspecified",     "friction",        "slip_stop",
+                                    "slip_turn",       "static_friction", "tangential_compliance",
+                                    "finite_duration", "finite_forces",   "higher_order"};
+  static_assert(std::size(kNames) == kEffectCount);
+  const auto number = static_cast<size_t>(effect);
+  return number < std::size(kNames) ? kNames[number] : kNames[0];
 }
 
 }  // namespace ricochet

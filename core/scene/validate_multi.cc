@@ -292,17 +292,10 @@ void CheckLists(const MultiContactRequest& request, const MultiReduction& reduct
 }  // namespace
 
 const char* NameOf(MultiContactMethod method) {
-  switch (method) {
-    case MultiContactMethod::kOrders:
-      return "orders";
-    case MultiContactMethod::kSprings:
-      return "springs";
-    case MultiContactMethod::kPossible:
-      return "possible";
-    case MultiContactMethod::kUnspecified:
-      break;
-  }
-  return "unspecified";
+  constexpr const char* kNames[] = {"unspecified", "orders", "springs", "possible"};
+  static_assert(std::size(kNames) == kMultiContactMethods.size() + 1);
+  const auto number = static_cast<size_t>(method);
+  return number < std::size(kNames) ? kNames[number] : kNames[0];
 }
 
 std::string WhyNot(MultiContactMethod method, int directions, int contacts) {
