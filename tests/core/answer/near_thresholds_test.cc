@@ -1,7 +1,5 @@
 // The nearest thresholds against closed forms of the planar impact, and against the impacts on both sides of them.
 
-#include "core/answer/near_thresholds.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/answer/derivatives.h"
 #include "ricochet/solver.h"
 
 namespace ricochet {
