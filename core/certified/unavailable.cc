@@ -4,7 +4,6 @@
 
 #include "core/base/invariant.h"
 #include "core/certified/certified.h"
-#include "core/certified/residual.h"
 
 namespace ricochet {
 namespace {
