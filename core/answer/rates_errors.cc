@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/answer/impulse_changes.h"
-#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/mechanism.h"
 #include "core/contact/reduction.h"
 #include "core/models/restitution_law.h"

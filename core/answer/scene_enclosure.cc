@@ -11,11 +11,11 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/decimal.h"
 #include "core/bounds/enclosure.h"
-#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/delassus.h"
 #include "core/contact/interval_reduction.h"
 #include "core/contact/mechanism.h"
 #include "core/contact/reduction.h"
+#include "core/contact/scene_contact.h"
 #include "core/scene/check.h"
 #include "core/scene/field.h"
 

@@ -11,7 +11,6 @@
 #include "core/answer/scene_outcome.h"
 #include "core/audit/audit_parts.h"
 #include "core/audit/audit_scene.h"
-#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/moved_contact.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"

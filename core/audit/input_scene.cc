@@ -7,7 +7,6 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/audit/audit_parts.h"
-#include "core/scene/field.h"
 #include "core/scene/validate.h"
 
 namespace ricochet::audit {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 #include <set>
-#include <string>
 #include <utility>
 #include <variant>
 
@@ -13,8 +12,8 @@
 #include "core/certified/digits.h"
 #include "core/certified/flint.h"
 #include "core/certified/system.h"
-#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
+#include "core/contact/scene_contact.h"
 #include "core/plan/scene_problem.h"
 
 namespace ricochet {

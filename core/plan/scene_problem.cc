@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "core/contact/coefficients_at_speed.h"
+#include "core/contact/scene_contact.h"
 #include "core/models/restitution_law.h"
 
 namespace ricochet {

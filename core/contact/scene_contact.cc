@@ -1,4 +1,4 @@
-#include "core/contact/coefficients_at_speed.h"
+#include "core/contact/scene_contact.h"
 
 #include <algorithm>
 #include <cstddef>
