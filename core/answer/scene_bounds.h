@@ -5,9 +5,9 @@
 //   a system in space                   hull of a sample of kSpatialImpacts impacts, Bounds::sampled
 //
 // The sample's energetic coefficients lie at equal steps from 0 to 1, and at both sides of the coefficient where the
-// outcome jumps because the end of the impact recedes. Each impact is solved to spatial::kStudyTolerance. The hull lies within the true range, to that tolerance; docs/theory/bounds.md says why no
-// more is known in space, and why there are no bounds by energy alone and no critical coefficients. Units are those of
-// ricochet/bounds.h.
+// outcome jumps because the end of the impact recedes. Each impact is solved to spatial::kStudyTolerance. The hull lies
+// within the true range, to that tolerance; docs/theory/bounds.md says why no more is known in space, and why there are
+// no bounds by energy alone and no critical coefficients. Units are those of ricochet/bounds.h.
 
 #ifndef RICOCHET_CORE_ANSWER_SCENE_BOUNDS_H_
 #define RICOCHET_CORE_ANSWER_SCENE_BOUNDS_H_
