@@ -45,8 +45,7 @@ class AuditRows {
     audit::Observation terms;  // It has the terms of the scene's own velocity, and none if the columns state another.
   };
 
-  AuditRows(const AuditBatchRequest& request, size_t size)
-      : request_(request), columns_(request.columns), size_(size) {}
+  AuditRows(const AuditBatchRequest& request, size_t size) : columns_(request.columns), size_(size) {}
 
   // Nothing if the scene of the row breaks a rule or exceeds the range of doubles.
   std::optional<Impact> ImpactAt(size_t row, audit::InputScene& own) const;
@@ -58,7 +57,6 @@ class AuditRows {
   std::vector<double> RatesAt(size_t row) const;
   audit::Observation ObservationAt(size_t row, absl::Span<const double> rates, const Impact& impact) const;
 
-  const AuditBatchRequest& request_;
   const AuditColumns& columns_;
   size_t size_;
   std::optional<Impact> shared_;  // Unset beside inputs, by which each row has its own.
