@@ -184,7 +184,7 @@ class Ray {
 
   // The other unknowns on a line through two places, at the last place inside and at the best fit; and moved from these
   // by the factor of the one that is held, or by its inverse, as numbers do of which a product or a quotient alone is
-  // measured. Each start comes once, the most likely ones first.
+  // measured; and where the caller's first start has them. Each start comes once, the most likely ones first.
   std::vector<std::vector<double>> StartsAt(double distance) const {
     std::vector<std::vector<double>> starts;
     const auto add = [&starts](std::vector<double> start) {
@@ -201,6 +201,7 @@ class Ray {
       add(StartAt(distance, *from, 1.0 / factor));
       add(StartAt(distance, *from, factor));
     }
+    add(StartAt(distance, model_.problem().start, 1.0));
     return starts;
   }
 

@@ -445,9 +445,9 @@ class Answerer {
       answer_.verdict = MultiContactVerdict::kSingle;
     } else if (Compare(orders, orders)) {
       answer_.verdict = MultiContactVerdict::kOrderMatters;
-    } else if (are_known && (!has_orders || orders_complete_) && Compare(orders, springs)) {
-      answer_.verdict = MultiContactVerdict::kOrdersAgreeSpringsDiffer;
-    } else if (are_known && has_orders && orders_complete_ && (!has_springs || !springs.empty()) &&
+    } else if (Compare(orders, springs)) {
+      if (are_known && orders_complete_) answer_.verdict = MultiContactVerdict::kOrdersAgreeSpringsDiffer;
+    } else if (are_known && !orders.empty() && orders_complete_ && (!has_springs || !springs.empty()) &&
                std::none_of(springs.begin(), springs.end(), is_vague)) {
       answer_.verdict = MultiContactVerdict::kOrdersAgree;
     }

@@ -20,6 +20,10 @@
 
 namespace ricochet {
 
+// Where models multiply entries of W by each other, a diagonal entry is 0 or at least this part of the largest: smaller
+// ones would be lost.
+inline constexpr double kLeastShareOfW = 0x1p-460;
+
 inline bool AllFinite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }

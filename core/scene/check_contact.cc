@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -33,6 +34,29 @@ void CheckMobility(const Scene& scene, const AnyReduction& any, Check& check) {
         });
       },
       any);
+}
+
+// The model in space squares friction, too.
+void CheckSpread(const Scene& scene, const SpatialReduction& reduction, const EffectiveCoefficients& effective,
+                 Check& check) {
+  constexpr double kMostFriction = 1.0 / kLeastShareOfW;
+  const auto& [w11, w12, w13, w22, w23, w33] = reduction.w;
+  const double largest = std::max({w11, w22, w33});
+  for (const double own : {w11, w22, w33}) {
+    check.Require(own == 0.0 || own >= kLeastShareOfW * largest, [&] {
+      const bool is_stated = std::holds_alternative<SpatialContact>(scene.system);
+      return MakeViolation(is_stated ? "spatial_contact.w_per_kg" : "system",
+                           absl::StrCat("has ", ShortestDecimal(own), " 1/kg on the diagonal of W"),
+                           absl::StrCat("have 0 or at least ", ShortestDecimal(kLeastShareOfW), " times the largest, ",
+                                        ShortestDecimal(largest)),
+                           ViolationKind::kContact);
+    });
+  }
+  check.Require(effective.static_friction <= kMostFriction, [&] {
+    return MakeViolation("friction", absl::StrCat("has a coefficient of ", ShortestDecimal(effective.static_friction)),
+                         absl::StrCat("be at most ", ShortestDecimal(kMostFriction), " in space"),
+                         ViolationKind::kContact);
+  });
 }
 
 // `product` is the coefficient times its factor at `speed`.
@@ -107,6 +131,9 @@ void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, s
   const bool is_finite = IsFinite(reduction);
   const double speed = ApproachSpeed(reduction);
   if (is_finite && !MobilityIsSure(scene)) CheckMobility(scene, reduction, check);
+  if (const auto* const spatial = std::get_if<SpatialReduction>(&reduction); is_finite && spatial != nullptr) {
+    if (spatial->v0 < 0.0) CheckSpread(scene, *spatial, contact->coefficients, check);
+  }
   if (DependsOnSpeed(scene) && std::isfinite(speed)) CheckEffective(scene, contact->coefficients, speed, check);
   if (is_finite && with_spring) CheckSpring(scene, std::get<PlanarReduction>(reduction), contact->coefficients, check);
 }

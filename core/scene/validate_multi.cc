@@ -179,18 +179,15 @@ void CheckMatrix(const ContactMatrix& matrix, const MultiReduction& reduction, C
   });
 }
 
-// W is scaled as a whole, and its entries are multiplied by each other: a contact whose entries would be lost in this
-// is refused.
 void CheckSpread(const MultiReduction& reduction, Check& check) {
-  constexpr double kLeastShare = 0x1p-460;
   const Eigen::VectorXd diagonal = reduction.w.diagonal();
   const double largest = diagonal.maxCoeff();
   for (Eigen::Index row = 0; row < diagonal.size(); ++row) {
     const double own = diagonal(row);
-    check.Require(!(own > 0.0 && own / largest < kLeastShare), [&] {
+    check.Require(!(own > 0.0 && own / largest < kLeastShareOfW), [&] {
       return MakeViolation(Entry("contacts", static_cast<size_t>(row / reduction.directions), ""),
                            absl::StrCat("has ", ShortestDecimal(own), " 1/kg on the diagonal of W"),
-                           absl::StrCat("have 0 or at least ", ShortestDecimal(kLeastShare), " times the largest, ",
+                           absl::StrCat("have 0 or at least ", ShortestDecimal(kLeastShareOfW), " times the largest, ",
                                         ShortestDecimal(largest)));
     });
   }

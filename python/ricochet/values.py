@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numbers
 import sys
+from collections.abc import Iterator, ValuesView
 from typing import TYPE_CHECKING, Any, Iterable, NoReturn
 
 import numpy as np
@@ -130,6 +131,10 @@ def column(values: Any, path: str) -> Numbers:
     """
     if isinstance(values, memoryview):
         values = np.asarray(values)
+    elif isinstance(values, bytearray):
+        values = bytes(values)
+    elif isinstance(values, (Iterator, ValuesView)):
+        values = list(values)
     # Numpy would make numbers of a list whatever it holds: of [0.1, True], of [0.1, "2"] and of what is masked.
     is_mixed = isinstance(values, np.ma.MaskedArray) or (
         not hasattr(values, "dtype") and is_list(values) and not set(map(type, values)) <= {float})

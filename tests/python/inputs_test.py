@@ -93,6 +93,13 @@ class Numbers(Case):
                     with self.subTest(what, field=field):
                         self.refused(lambda: call(value), field, words)
 
+    def test_what_can_be_counted_once_is_a_column_and_bytes_are_none(self):
+        expected = ricochet.solve_batch(PENDULUM, {MU: [0.1, 0.2]}, NEWTON)
+        for given in (iter([0.1, 0.2]), (mu for mu in (0.1, 0.2)), {"a": 0.1, "b": 0.2}.values()):
+            self.assertEqual(ricochet.solve_batch(PENDULUM, {MU: given}, NEWTON), expected)
+        for given in (b"12", bytearray(b"12")):
+            self.refused(lambda: ricochet.solve_batch(PENDULUM, {MU: given}, NEWTON), MU, "must be a number")
+
     def test_arrays_of_times_are_no_numbers(self):
         for times in (pandas.to_timedelta([1, 2], unit="s"), pandas.to_datetime([1, 2], unit="s"),
                       np.array([1, 2], "m8[s]")):

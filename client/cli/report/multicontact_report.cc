@@ -17,6 +17,7 @@
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
+#include "core/base/counted.h"
 #include "core/base/decimal.h"
 #include "core/types/multi_contact.h"
 #include "proto/wire/multi_contact.h"
@@ -94,6 +95,9 @@ std::string VerdictText(const MultiContactAnswer& answer) {
   }
   if (answer.orders.empty() && !answer.springs.has_value()) return "Undecided: no outcome was computed.\n";
   if (answer.orders.empty() && KnowsAnEnd(answer)) return "Undecided: springs alone were followed.\n";
+  if (!answer.differing_output.empty()) {
+    return absl::StrCat("Undecided: some orders were not followed to their end, or the errors are large; ", difference);
+  }
   return KnowsAnEnd(answer)
              ? "Undecided: the outcomes that ended do not differ by more than their errors, but others could "
                "not be found, or the errors are large.\n"
@@ -305,8 +309,8 @@ std::string MultiContactText(const MultiContactRequest& request, const MultiCont
   if (!std::holds_alternative<FreeBodies>(request.scene.system)) {
     // Six rows may be those of three contacts in a plane or of two in space.
     const bool in_plane = DirectionsOf(request.scene) == 2;
-    text = absl::StrCat(request.scene.contacts.size(), in_plane ? " contacts in a plane: rows t, n of each.\n\n"
-                                                                : " contacts in space: rows t1, t2, n of each.\n\n");
+    text = absl::StrCat(Counted(request.scene.contacts.size(), "contact"),
+                        in_plane ? " in a plane: rows t, n of each.\n\n" : " in space: rows t1, t2, n of each.\n\n");
   }
   for (size_t state = 0; state < response.answers.size(); ++state) {
     const MultiContactAnswer& answer = response.answers[state];

@@ -132,7 +132,7 @@ enum class MultiContactEnd {
 // or was not pressed.
 struct ContactLedger {
   double work_compression_j = 0.0;  // <= 0
-  double work_restitution_j = 0.0;  // energetic^2 times as much, >= 0
+  double work_restitution_j = 0.0;  // energetic^2 times as much, or 0 where friction locks it; >= 0
   double work_friction_j = 0.0;     // <= 0
   std::optional<double> newton;     // -v_n after/v_n before
   std::optional<double> poisson;    // Normal impulse of restitution over that of compression.
@@ -201,7 +201,7 @@ struct StiffnessJump {
 
 // Says whether the order of impacts matters. The numbers are those of ricochet.v1.MultiContactAnswer.Verdict.
 enum class MultiContactVerdict {
-  kUnspecified = 0,               // Not decided: no two outcomes differ, but some could not be found.
+  kUnspecified = 0,               // Not decided: no two orders end apart, but some have no end or large errors.
   kSingle = 1,                    // Proved: only one outcome is possible.
   kOrderMatters = 2,              // Two orders end apart by more than their errors and 1e-11 of an output's scale.
   kOrdersAgreeSpringsDiffer = 3,  // All orders end alike, but springs end differently.
@@ -217,8 +217,8 @@ struct RefusedMethod {
 // A MultiContactAnswer says what the contacts can do from one velocity before.
 struct MultiContactAnswer {
   MultiContactVerdict verdict = MultiContactVerdict::kUnspecified;
-  // These are set for kOrderMatters and kOrdersAgreeSpringsDiffer: the output that differs most over its scale, by how
-  // much, and in which two outcomes. The scale is sqrt(2 T g): T is energy_before_j, and an impulse that changes the
+  // These are set if two outcomes that ended differ: the output that differs most over its scale, by how much, and in
+  // which two outcomes. The scale is sqrt(2 T g): T is energy_before_j, and an impulse that changes the
   // output by one unit takes the energy 1/(2 g).
   std::string differing_output;
   double difference = 0.0;
