@@ -165,15 +165,15 @@ class Search {
       const auto others =
           std::stable_partition(next.begin(), next.end(), [&](int i) { return i > last || coupled_[Place(i, last)]; });
       if (others == next.begin() && !shares_) return taken;
+      const bool all_rest = !Moves(next, state);
       if (others != next.begin()) next.erase(others, next.end());
       if (next.size() > 1) {
-        const Met met = Meet(state, next);
-        if (met == Met::kElsewhere) return taken;
-        if (met == Met::kOnTheWay) {
-          state.end = MultiContactEnd::kBudgetUsedUp;
+        const Met met = Meet(state);
+        if (met == Met::kOnTheWay && (all_rest || Moves(next, state))) {
+          EndWhereItCameBack(all_rest, state);
           Keep(std::move(state));
-          return taken;
         }
+        if (met != Met::kNever) return taken;
       }
       if (shares_) LeaveOutBranches(budget - taken, state.events, next);
       for (size_t i = 0; i + 1 < next.size(); ++i) {
@@ -201,6 +201,27 @@ class Search {
         return taken;
       }
     }
+  }
+
+  // True if one of the contacts approaches by more than what is left of a sequence without end.
+  bool Moves(const std::vector<int>& contacts, const Attained& state) const {
+    return std::any_of(contacts.begin(), contacts.end(),
+                       [&](int i) { return -state.v(problem_.N(i)) > kEndlessSpeed * scale_; });
+  }
+
+  // Ends a sequence that has come back to its own state: it goes on for ever, unless all speeds have fallen to
+  // rounding, which may still be struck then.
+  void EndWhereItCameBack(bool all_rest, Attained& state) const {
+    if (!all_rest) {
+      state.end = MultiContactEnd::kBudgetUsedUp;
+      return;
+    }
+    for (int i = 0; i < problem_.k; ++i) {
+      const double speed = std::max(-state.v(problem_.N(i)), 0.0);
+      if (speed > 0.0) state.error += (1.0 + problem_.laws[At(i)].e) * speed / roots_(problem_.N(i));
+    }
+    state.end = MultiContactEnd::kEndlessEstimate;
+    state.error_is_proved = false;
   }
 
   // Keeps as many branches as the budget follows to their ends, at least one, and not always the same.
@@ -239,9 +260,9 @@ class Search {
 
   enum class Met { kNever, kElsewhere, kOnTheWay };
 
-  // Remembers a state in which the contacts `next` approach, and says whether such a state was met before, by another
+  // Remembers a state in which several contacts approach, and says whether such a state was met before, by another
   // sequence or by this one. The last contact makes no difference, because it does not approach.
-  Met Meet(const Attained& state, const std::vector<int>& next) {
+  Met Meet(const Attained& state) {
     // States that differ by more than rounding may lead to outcomes that differ by more than their errors.
     const double rounding = 4.0 * kEpsilon * scale_;
     const auto is_same = [&](const Branched& other) { return AreEqual(state, other.state, rounding); };
@@ -250,10 +271,7 @@ class Search {
       if (branched_.size() < kMostBranched) branched_.push_back({state});
       return Met::kNever;
     }
-    // A sequence that comes back to its own state goes on for ever, unless all speeds have fallen to rounding.
-    const bool moves =
-        std::any_of(next.begin(), next.end(), [&](int i) { return -state.v(problem_.N(i)) > kEndlessSpeed * scale_; });
-    return found->is_open && moves ? Met::kOnTheWay : Met::kElsewhere;
+    return found->is_open ? Met::kOnTheWay : Met::kElsewhere;
   }
 
   static bool IsEnd(const Attained& state) {

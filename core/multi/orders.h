@@ -21,7 +21,7 @@
 namespace ricochet::multi {
 
 // The impacts that a search may take. Of a larger tree some sequences are followed to their ends; one that has not
-// ended then ends with kBudgetUsedUp, as does one that comes back to a state it has been in.
+// ended then ends with kBudgetUsedUp, as does one that comes back to a state it has been in and moves.
 inline constexpr int64_t kOrdersBudget = 4096;
 // The outcomes that an answer lists. Of more, those are listed that end after the fewest impacts.
 inline constexpr size_t kMostOutcomes = 256;

@@ -110,7 +110,7 @@ class Answerer {
     if (orders) AddOrders();
     if (springs) AddSprings();
     if (possible) AddPossible(apart);
-    Judge(orders, springs);
+    Judge(springs);
     return std::move(answer_);
   }
 
@@ -428,7 +428,7 @@ class Answerer {
     return !answer_.possible.empty();
   }
 
-  void Judge(bool has_orders, bool has_springs) {
+  void Judge(bool has_springs) {
     std::vector<const AttainedOutcome*> orders, springs;
     bool all_end = true;
     const auto add = [&](const AttainedOutcome& outcome, std::vector<const AttainedOutcome*>& attained) {

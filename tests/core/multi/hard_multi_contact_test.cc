@@ -258,6 +258,45 @@ TEST(HardMultiContactTest, ASequenceThatComesBackIsNoOrderThatAgrees) {
   }
 }
 
+// Contact 1 sticks and is plastic, which ends all motion of two coordinates: what is left is rounding. It may be struck
+// again, and then comes back to itself, but is an end all the same.
+TEST(HardMultiContactTest, ASequenceThatComesBackToRestHasEnded) {
+  MultiContactScene scene;
+  scene.system = Mechanism{.mass_matrix = {1.6012, 0.7654, 0.7654, 0.366},
+                           .jacobian = {-0.4, 0.5, -0.93, -0.25, 0.69, 0.46, 0.51, -0.35, -1.02, 0.58, 0.28, -0.33},
+                           .rates = {0.31, 1.35}};
+  scene.contacts = {{.friction = 1.0, .energetic = 0.0}, {.friction = 0.1, .energetic = 1.0}, {.energetic = 1.0}};
+  for (const double part : {0.8, 0.9, 1.0, 1.1, 1.2}) {
+    std::get<Mechanism>(scene.system).rates[0] = 0.31 * part;
+    const MultiContactAnswer answer = AnswerTo({.scene = scene, .methods = {MultiContactMethod::kOrders}});
+    EXPECT_TRUE(std::any_of(answer.orders.begin(), answer.orders.end(), [](const AttainedOutcome& order) {
+      const bool has_end = order.end == MultiContactEnd::kSeparated || order.end == MultiContactEnd::kEndlessEstimate;
+      return has_end && std::hypot(order.velocity[0], order.velocity[1]) < 1e-9;
+    })) << part;
+  }
+}
+
+// As above, beside a fourth contact that moves a coordinate of its own: no order ends before it has been struck.
+TEST(HardMultiContactTest, ASequenceThatComesBackToRestLeavesNoOtherContactOut) {
+  for (const double approach : {-1.0, -100.0}) {
+    MultiContactScene scene;
+    scene.system = Mechanism{.mass_matrix = {1.6012, 0.7654, 0.0, 0.7654, 0.366, 0.0, 0.0, 0.0, 1.0},
+                             .jacobian = {-0.4,  0.5,  0.0, -0.93, -0.25, 0.0, 0.69, 0.46, 0.0, 0.51, -0.35, 0.0,
+                                          -1.02, 0.58, 0.0, 0.28,  -0.33, 0.0, 0.0,  0.0,  0.0, 0.0,  0.0,   1.0},
+                             .rates = {0.31, 1.35, approach}};
+    scene.contacts = {{.friction = 1.0, .energetic = 0.0},
+                      {.friction = 0.1, .energetic = 1.0},
+                      {.energetic = 1.0},
+                      {.energetic = 0.5}};
+    const MultiContactAnswer answer = AnswerTo({.scene = scene, .methods = {MultiContactMethod::kOrders}});
+    EXPECT_FALSE(answer.orders.empty());
+    for (const AttainedOutcome& order : answer.orders) {
+      if (order.end == MultiContactEnd::kBudgetUsedUp) continue;
+      EXPECT_NEAR(order.velocity[2], -0.5 * approach, 1e-9) << order.orders.front();
+    }
+  }
+}
+
 // Contacts that rest are at rest in every frame, and nothing strikes.
 TEST(HardMultiContactTest, ABoxThatSlidesIsNotStruckByRounding) {
   for (int degrees = 0; degrees < 360; degrees += 7) {
