@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/answer/exact_derivatives.h"
+#include "core/fit/differences.h"
 
 namespace ricochet::fit {
 namespace {
@@ -105,12 +106,31 @@ bool Model::Residuals(const std::vector<double>& unknowns, std::vector<double>& 
     const bool exist =
         std::all_of(residuals.begin(), residuals.end(), [](double value) { return std::isfinite(value); });
     SubtractFrom(problem_.numbers, residuals);
-    return exist;
+    return exist && Resolves(unknowns);
   }
   if (!SettleHere(unknowns)) return false;
   for (const SettledRow& row : settled_) Append(row.residuals, residuals);
   for (const SettledRow& row : settled_) Append(row.held, residuals);
-  return std::none_of(residuals.begin(), residuals.end(), [](double value) { return std::isnan(value); });
+  const auto is_none = [](double value) { return std::isnan(value); };
+  return std::none_of(residuals.begin(), residuals.end(), is_none) && Resolves(unknowns);
+}
+
+bool Model::Resolves(const std::vector<double>& unknowns) {
+  // Near their scales unknowns do not cancel by as much, and the slopes are not worth their time.
+  constexpr double kFar = 0x1p10;
+  constexpr double kMostOfSigma = 1e-4;
+  // What moves a number by less than so many of its own roundings has not cancelled.
+  constexpr double kCancels = 0x1p10;
+  bool is_far = false;
+  for (size_t k = 0; k < unknowns.size(); ++k) is_far |= std::fabs(unknowns[k]) > kFar * problem_.scale[k];
+  std::vector<double> slopes;
+  if (!is_far || !Slopes(unknowns, std::vector<bool>(unknowns.size(), true), slopes)) return true;
+  for (size_t i = 0; i < slopes.size(); ++i) {
+    const Number& number = problem_.numbers[i / unknowns.size()];
+    const double terms = std::fabs(slopes[i] * unknowns[i % unknowns.size()]);
+    if (terms * 0x1p-53 > kMostOfSigma && terms * number.sigma > kCancels * std::fabs(number.value)) return false;
+  }
+  return true;
 }
 
 bool Model::ResidualsAll(const Table& points, Table& residuals) {

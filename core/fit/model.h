@@ -33,8 +33,11 @@ class Model {
   // Asks `stopped`, for work between the functions below that takes long.
   bool Stops() { return is_stopped_ = is_stopped_ || stopped_(); }
 
-  // Sets the residuals and returns true if all numbers have a prediction.
+  // Sets the residuals and returns true if all numbers have a prediction that doubles resolve.
   bool Residuals(const std::vector<double>& unknowns, std::vector<double>& residuals);
+  // False if large unknowns cancel, and the rounding of one moves a number by more than a small part of its sigma: what
+  // a search finds there is rounding.
+  bool Resolves(const std::vector<double>& unknowns);
   // Sets the residuals at each of some points, NaN for a number without prediction. Returns false once it is stopped.
   bool ResidualsAll(const Table& points, Table& residuals);
   // Sets the regimes of the rows, and the numbers predicted for the stated inputs by the courses that the rows take.

@@ -222,6 +222,10 @@ class Ray {
       const RayPoint next = Next(inside.distance + width * share, /*is_on_the_way=*/true);
       (next.rise < rise_ ? inside : outside) = next;
     }
+    // Where doubles do not resolve the numbers any more, the data have not ended the interval.
+    if (!model_.Resolves(StartAt(outside.distance, last_inside_.at, 1.0))) {
+      return End(FitEndKind::kUnbounded, inside.distance);
+    }
     return End(std::isfinite(outside.rise) ? FitEndKind::kFound : FitEndKind::kCutByBound, inside.distance);
   }
 

@@ -4,10 +4,13 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <deque>
 #include <limits>
 #include <utility>
+
+#include "core/fit/differences.h"
 
 namespace ricochet::fit {
 namespace {

@@ -17,7 +17,6 @@
 #define RICOCHET_CORE_FIT_SETTLED_ROW_H_
 
 #include <Eigen/Core>
-#include <cmath>
 #include <vector>
 
 #include "absl/functional/function_ref.h"
@@ -52,16 +51,6 @@ using TakeRow = absl::FunctionRef<void(const SettledRow& row)>;
 // range. If the best inputs lie on a corner of f, the residuals have the sum of squares that belongs to the inputs
 // found. Returns false once `solve` does.
 bool SettleRows(const Problem& problem, const Table& points, SolveTable solve, TakeRow take);
-
-// The cube root of the rounding of a double: the step, over the size of a number, for which central differences are
-// most exact.
-inline constexpr double kDifferenceStep = 6e-6;
-
-// Returns the mean slope of both sides. A side that does not exist is NaN and does not count; without both it is 0.
-inline double MeanOfSides(double below, double above) {
-  if (std::isnan(below)) return std::isnan(above) ? 0.0 : above;
-  return std::isnan(above) ? below : 0.5 * (below + above);
-}
 
 }  // namespace ricochet::fit
 

@@ -424,6 +424,50 @@ TEST(FitTest, RoundingTellsNothing) {
   }
 }
 
+// e v (1 - alpha v^n) over speeds that differ by 1 % is a straight line, whichever of e, alpha and n is far off. For
+// each n the others are found by linear regression, which gives the least chi-squared: 12.63562 and 1.38479. The first
+// lies where n falls to 0 and e grows beyond what doubles resolve; the second set also fits with e = 0.001 and n = 0.3.
+TEST(FitTest, ThreeUnknownsOfALineHaveNoEndWhereRoundingIsAllThatTheyChange) {
+  struct Case {
+    std::vector<double> normal_after;
+    double least_chi2;
+  };
+  for (const auto& [normal_after, least_chi2] :
+       {Case{{1.8244, 0.907, 1.5038, 1.3086, 1.3336, 1.3829, 1.024, 1.3836}, 12.63562},
+        Case{{1.4414, 1.3918, 1.5482, 1.4431, 1.317, 1.4984, 1.6888, 1.6194}, 1.38479}}) {
+    FitRequest request = {
+        .scene = {.system = PlanarContact{3.0, 0.5, 1.0, 0.3, -1.0},
+                  .friction = {.kinetic_coefficient = 0.2},
+                  .restitution = NewtonCoefficient{0.8},
+                  .restitution_by_speed = PowerLaw{.alpha = 0.1, .exponent = 0.3}},
+        .unknowns = {{.path = "restitution.newton"},
+                     {.path = "restitution.by_speed.power_law.alpha"},
+                     {.path = "restitution.by_speed.power_law.exponent"}},
+        .inputs = {{.path = "planar_contact.normal_m_s",
+                    .values = {-2.0, -2.002857, -2.005714, -2.008571, -2.011429, -2.014286, -2.017143, -2.02}}},
+        .measured = {{"contact_velocity_after.normal_m_s", normal_after, {0.2}}}};
+    const FitResponse response = *Fit(request, Never);
+    EXPECT_GT(response.chi2, least_chi2 - 1e-3);
+    const FitEstimate& newton = response.unknowns[0];
+    EXPECT_EQ(newton.low.kind, FitEndKind::kCutByBound);
+    EXPECT_EQ(newton.high.kind, FitEndKind::kUnbounded);
+  }
+}
+
+// A number that is far from its start, and measured to nearly all its digits, is found: nothing cancels.
+TEST(FitTest, ANumberFarFromItsStartIsFoundToAllItsDigits) {
+  for (const double start : {-2.0, -0.9, -0.5}) {
+    const FitRequest request = {.scene = {.system = PlanarContact{3.0, 0.5, 1.0, 0.3, start},
+                                          .friction = {.kinetic_coefficient = 0.2},
+                                          .restitution = NewtonCoefficient{0.5}},
+                                .unknowns = {{.path = "planar_contact.normal_m_s"}},
+                                .measured = {{"contact_velocity_after.normal_m_s", {500.0, 500.0, 500.0}, {1e-11}}}};
+    const FitResponse response = *Fit(request, Never);
+    EXPECT_NEAR(response.unknowns[0].value, -1000.0, 1e-10) << start;
+    EXPECT_EQ(response.unknowns[0].low.kind, FitEndKind::kFound) << start;
+  }
+}
+
 // The slip sticks at once and takes u0^2 / (2 Wtt) of energy: its sign is told by an impulse of large error alone.
 TEST(FitTest, AnIntervalReachesOverAnotherFitThatIsNearlyAsGood) {
   const FitRequest request = {
