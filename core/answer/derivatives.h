@@ -2,7 +2,7 @@
 //
 // A planar rigid impact has exact derivatives (core/answer/exact_derivatives.h). Other impacts have differences
 // (core/answer/differences.h), with an estimated error. docs/theory/derivatives.md says what each derivative is
-// accurate to.
+// accurate to. Where asked for, each comes with the nearest thresholds (FindThresholds).
 
 #ifndef RICOCHET_CORE_ANSWER_DERIVATIVES_H_
 #define RICOCHET_CORE_ANSWER_DERIVATIVES_H_

@@ -1,5 +1,6 @@
 // RICOCHET_TRY(const Scene scene, ReadScene(options)) sets its first part, which may declare what it sets, to the value
-// of an absl::StatusOr, or returns the error from the function around it.
+// of an absl::StatusOr, or returns the error from the function around it. It is several statements, so that it cannot
+// stand alone behind an `if` without braces.
 
 #ifndef RICOCHET_CORE_BASE_TRY_H_
 #define RICOCHET_CORE_BASE_TRY_H_

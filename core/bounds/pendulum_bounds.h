@@ -1,4 +1,5 @@
 // SolveBounds: the bounds of the pendulum's coefficients, [27]-[31], [54], [55]; ricochet/bounds.h has the formulas.
+// SolveNearlyVertical: their forms for a pendulum whose tip hangs nearly straight below its pin.
 //
 // Accuracy: 1 ulp, but an upper bound of `sharp` that rounding would push past what Solve accepts as admissible is the
 // next double below. -(a/|b|)(1 - sqrt(1 - x^2)) is computed as -mu x/(1 + sqrt(1 - x^2)), in which nothing cancels

@@ -12,7 +12,6 @@
 #ifndef RICOCHET_CORE_CERTIFIED_CERTIFIED_H_
 #define RICOCHET_CORE_CERTIFIED_CERTIFIED_H_
 
-#include <string>
 #include <vector>
 
 #include "absl/functional/function_ref.h"
@@ -26,12 +25,6 @@ namespace certified {
 
 // False in a build without the component `certified`; CheckCertifiable then refuses every scene.
 bool IsAvailable();
-
-// decimal - number, rounded to a double: how far a double, or a decimal with fewer digits, lies from a certificate.
-// Both are read to far more digits than a certificate may have. `decimal` is a CertifiedNumber::decimal that is not
-// empty; `number` is finite. A build without the component must not call these.
-double Residual(const std::string& decimal, double number);
-double Residual(const std::string& decimal, const std::string& other);
 
 }  // namespace certified
 

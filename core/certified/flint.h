@@ -1,5 +1,5 @@
 // The only header that includes those of FLINT and Arb. FLINT 3 contains Arb as <flint/arb.h>; before it, Arb was a
-// library of its own whose headers Debian 12 installs as <arb.h>.
+// library of its own whose headers Debian 12 installs as <arb.h>. Ball: a number of Arb that frees itself.
 
 #ifndef RICOCHET_CORE_CERTIFIED_FLINT_H_
 #define RICOCHET_CORE_CERTIFIED_FLINT_H_

@@ -4,6 +4,7 @@
 
 #include "core/base/invariant.h"
 #include "core/certified/certified.h"
+#include "core/certified/residual.h"
 
 namespace ricochet {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "core/base/invariant.h"
 #include "core/certified/certified.h"
+#include "core/certified/residual.h"
 #include "core/models/pendulum/nearly_vertical_forms.h"
 #include "core/models/spatial/solver-inl.h"
 #include "core/plan/scene_problem.h"

@@ -3,7 +3,7 @@
 // A model bounds or estimates the errors of its velocities, impulses and works. Those of the coefficients follow: each
 // is a quotient of two such numbers. An error that is not known is infinite. Errors are those of the model for the
 // numbers of its problem as they are stated; what its plan leaves out comes on top. docs/theory/rounding.md derives the
-// coefficients'.
+// coefficients'. RelativeErrors: proved bounds over the contact speed.
 
 #ifndef RICOCHET_CORE_MODELS_IMPACT_ERRORS_H_
 #define RICOCHET_CORE_MODELS_IMPACT_ERRORS_H_

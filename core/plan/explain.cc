@@ -1,9 +1,10 @@
+#include "core/plan/explain.h"
+
 #include <string>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/plan/perturbed_path.h"
-#include "core/plan/planned_scene.h"
 
 namespace ricochet {
 namespace {

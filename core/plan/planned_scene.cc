@@ -1,6 +1,7 @@
 #include "core/plan/planned_scene.h"
 
 #include "core/plan/arithmetic.h"
+#include "core/plan/explain.h"
 #include "core/plan/scene_problem.h"
 
 namespace ricochet {

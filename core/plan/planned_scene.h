@@ -42,9 +42,6 @@ PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact,
 // The arithmetic that the chosen model calls for. Only the impact itself can tell, so that a closed form is computed.
 PlannedArithmetic ArithmeticOf(const PlannedScene& planned);
 
-// Writes the plan of a choice that was made for `demand`. Each effect gets one sentence that gives the reason for its
-// size, with numbers to three digits. The arithmetic is left as it is.
-void Explain(const Choice& choice, const Demand& demand, Plan& plan);
 // Writes the plan in words. Its arithmetic, which is known once the impact is computed, is left as it is; a model that
 // has only one gets it.
 void Explain(const PlannedScene& planned, Plan& plan);

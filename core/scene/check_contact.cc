@@ -52,8 +52,10 @@ void CheckSpread(const Scene& scene, const SpatialReduction& reduction, const Ef
                            ViolationKind::kContact);
     });
   }
-  check.Require(effective.static_friction <= kMostFriction, [&] {
-    return MakeViolation("friction", absl::StrCat("has a coefficient of ", ShortestDecimal(effective.static_friction)),
+  // A product that overflows has a violation of its own.
+  const double friction = effective.kinetic_friction;
+  check.Require(friction <= kMostFriction || !std::isfinite(friction), [&] {
+    return MakeViolation("friction", absl::StrCat("has a kinetic coefficient of ", ShortestDecimal(friction)),
                          absl::StrCat("be at most ", ShortestDecimal(kMostFriction), " in space"),
                          ViolationKind::kContact);
   });

@@ -1,5 +1,5 @@
 // Field: a number of a scene that an axis can drive, by its path. A field is resolved once for a scene, then set once
-// for each point.
+// for each point. DrivenFields: those that a request drives together.
 //
 // Paths are spelled as in the proto: "friction.kinetic_coefficient", "linkage.links[1].theta_rad",
 // "spatial_contact.w_per_kg[3]"; core/scene/numbers.h lists them. A scene has the fields of its own system and lists.

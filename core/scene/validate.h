@@ -1,5 +1,5 @@
 // Validate: checks every rule that a scene must keep, and lists all violations at once. All other code of the core
-// relies on a valid scene.
+// relies on a valid scene. RequireRigid: what bounds and audits ask of a scene beside these rules.
 
 #ifndef RICOCHET_CORE_SCENE_VALIDATE_H_
 #define RICOCHET_CORE_SCENE_VALIDATE_H_

@@ -265,8 +265,11 @@ void Filler::FillList(py::handle value, Message& message, const Field& field, co
     entries = Ask("entries", value);
   }
   if (!entries) return;
+  // Python handles its signals after so many entries, which take some milliseconds.
+  constexpr int kEntries = 1024;
   int index = 0;
   for (const py::handle entry : entries) {
+    if (index % kEntries == kEntries - 1 && PyErr_CheckSignals() != 0) throw py::error_already_set();
     const Place there = {.outer = place.outer, .name = place.name, .index = index++};
     if (field.cpp_type() == Field::CPPTYPE_MESSAGE) {
       Fill(entry, *reflection.AddMessage(&message, &field), &there);

@@ -129,6 +129,7 @@ def column(values: Any, path: str) -> Numbers:
     Raises:
         InvalidRequest: names the first entry that is no number.
     """
+    # Numpy would take an iterator as one object, and the bytes of a bytearray as numbers.
     if isinstance(values, memoryview):
         values = np.asarray(values)
     elif isinstance(values, bytearray):

@@ -31,7 +31,7 @@ struct SpeedTable {
 // std::monostate means that the request stated none, which Validate reports.
 using SpeedDependence = std::variant<std::monostate, PowerLaw, SpeedTable>;
 
-// Dry (Amontons-Coulomb) friction, |F| <= mu N.
+// Dry (Amontons-Coulomb) friction, |F| <= mu N. In space mu is at most 2^460.
 struct Friction {
   double kinetic_coefficient = 0.0;               // mu while the contact slides, >= 0; 0 is a smooth surface.
   std::optional<double> static_coefficient = {};  // mu_s while it sticks, >= mu; absent means mu.

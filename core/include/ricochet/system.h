@@ -122,7 +122,7 @@ struct PlanarContact {
 
 // A contact in space: W and the contact velocity with the rules of PlanarContact; the third direction is n.
 struct SpatialContact {
-  std::vector<double> w_per_kg = {};        // 6 entries 11 12 13 22 23 33 of a positive semidefinite matrix.
+  std::vector<double> w_per_kg = {};        // 11 12 13 22 23 33; positive semidefinite, see scene.proto.
   std::vector<double> tangential_m_s = {};  // 2 components along t1 and t2.
   double normal_m_s = 0.0;
 

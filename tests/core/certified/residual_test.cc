@@ -1,10 +1,10 @@
 // Residuals of decimals whose digits are known.
 
+#include "core/certified/residual.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
-
-#include "core/certified/certified.h"
 
 namespace ricochet::certified {
 namespace {

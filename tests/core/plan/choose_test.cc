@@ -10,8 +10,8 @@
 #include <cstdio>
 
 #include "core/models/restitution_law.h"
+#include "core/plan/explain.h"
 #include "core/plan/perturbed_path.h"
-#include "core/plan/planned_scene.h"
 #include "core/plan/scene_problem.h"
 #include "tests/support/claims/planned_answer.h"
 #include "tests/support/scenes/known_contacts.h"

@@ -1,11 +1,12 @@
 // A plan in words has every effect once, in order, each with its reason and numbers.
 
+#include "core/plan/explain.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "core/plan/planned_scene.h"
 #include "tests/support/scenes/plan_scenes.h"
 
 namespace ricochet {

@@ -134,6 +134,19 @@ std::vector<BadScene> BadSystems() {
        },
        "spatial_contact.normal_m_s",
        "makes v0 = -1 where W_nn = 0: must be >= 0, no impulse along n ends the approach"},
+      {"AMobilityInSpaceThatTheOthersHide",
+       [] {
+         return With(SpatialContact{{1, 0, 0, 1, 0, 1e-140}, {1.0, 0.5}, -1.0});
+       },
+       "spatial_contact.w_per_kg",
+       "has 1e-140 1/kg on the diagonal of W: must have 0 or at least 3.3589380537835444e-139 times the largest, 1"},
+      {"FrictionInSpaceThatHasNoSquare",
+       [] {
+         Scene scene = With(ContactInSpace());
+         scene.friction.kinetic_coefficient = 1e200;
+         return scene;
+       },
+       "friction", "has a kinetic coefficient of 1e+200: must be at most 2.977131414714806e+138 in space"},
   };
 }
 
