@@ -97,6 +97,9 @@ const Estimate& BetterOf(const Estimate& x, const Estimate& y) { return IsBetter
 
 // --- Both sides of a number ---
 
+// As where an impact has no end.
+constexpr OneSided kNoNumber = {.why_none = "there is no such number"};
+
 class Sides {
  public:
   Sides(const SampleSource& source, SceneLine& line, size_t count)
@@ -233,7 +236,7 @@ class Sides {
   OneSided LimitOf(size_t side, size_t i) const {
     if (!beside_[side].has_value()) return {.why_none = "the scene would break a rule"};
     const double here = source_.here().value[i], beside = beside_[side]->value[i];
-    if (std::isnan(here) || std::isnan(beside)) return {.why_none = "there is no such number"};
+    if (std::isnan(here) || std::isnan(beside)) return kNoNumber;
     const Estimate& estimate = EstimateOn(side, i);
     const double change = std::fabs(beside - here);
     // A number that is 0 here may change by more than its size, at the rate of its neighbours.
@@ -293,13 +296,16 @@ Threshold ThresholdBetween(const Course& x, const Course& y, const Course& here)
 absl::StatusOr<std::vector<Derivative>> DifferencesOf(const SampleSource& source, const Scene& scene,
                                                       const DerivativePaths& paths) {
   std::vector<Derivative> derivatives(paths.of.size() * paths.by.size());
+  const std::vector<double>& here = source.here().value;
+  const bool has_numbers = !std::all_of(here.begin(), here.end(), [](double value) { return std::isnan(value); });
   for (size_t k = 0; k < paths.by.size(); ++k) {
     SceneLine line(scene, paths.by[k]);
     Sides sides(source, line, paths.of.size());
-    if (!sides.Explore()) return absl::CancelledError("the call was stopped");
+    // Neighbours of a scene without an end may each take all of a model's budget.
+    if (has_numbers && !sides.Explore()) return absl::CancelledError("the call was stopped");
     for (size_t i = 0; i < paths.of.size(); ++i) {
       Derivative& derivative = derivatives[i * paths.by.size() + k];
-      derivative = sides.At(i);
+      derivative = has_numbers ? sides.At(i) : Join(kNoNumber, kNoNumber, false, Threshold::kUnspecified);
       derivative.of = paths.of[i];
       derivative.by = paths.by[k];
     }

@@ -193,8 +193,10 @@ double ExactDerivatives::SizeOf(size_t place) const {
 bool ExactDerivatives::IsMoved(const Side& side) { return std::fabs(side.step) == kBeside; }
 
 OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
-  if (!has_end_) return {.why_none = "no end of the impact is known"};
-  if (!side.exists) return {.why_none = "the scene would break a rule"};
+  if (!side.exists && has_end_) return {.why_none = "the scene would break a rule"};
+  if (!has_end_ || !HasEnd(impacts_[side.impact].tangent.branch.regime)) {
+    return {.why_none = "no end of the impact is known"};
+  }
   if (LosesRank(side)) {
     return {.why_none = "the rank of W, or whether the velocity lies in its range, changes at once"};
   }
@@ -274,7 +276,7 @@ Derivative ExactDerivatives::At(size_t of, size_t by) const {
   const bool both = below.rate.has_value() && above.rate.has_value();
   bool agree =
       both && std::fabs(*below.rate - *above.rate) <= kRounding * (std::fabs(*below.rate) + std::fabs(*above.rate));
-  Threshold threshold = agree ? Threshold::kUnspecified : ThresholdOf(number);
+  Threshold threshold = agree || !has_end_ ? Threshold::kUnspecified : ThresholdOf(number);
   if (both && !agree) {
     const bool has_one_course = threshold == Threshold::kUnspecified || threshold == Threshold::kSpeedTable;
     double slight = IsMoved(number.above) ? kSlight : 0.0;

@@ -210,7 +210,9 @@ class Ray {
   RayEnd Narrow(RayPoint& inside, RayPoint& outside) {
     const double target = std::sqrt(rise_);
     const auto root = [](const RayPoint& point) { return std::sqrt(std::max(point.rise, 0.0)); };
-    for (int i = 0; i < 80 && !model_.is_stopped(); ++i) {
+    // A third of these halves the held number from 1e20 times the end.
+    constexpr int kPlaces = 240;
+    for (int i = 0; i < kPlaces && !model_.is_stopped(); ++i) {
       if (root(outside) - target < kEndTolerance * target) return End(FitEndKind::kFound, outside.distance);
       if (target - root(inside) < kEndTolerance * target) return End(FitEndKind::kFound, inside.distance);
       if (inside.distance >= longest_ - at_bound_) return End(FitEndKind::kCutByBound, longest_);

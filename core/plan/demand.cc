@@ -260,9 +260,9 @@ std::vector<Violation> CheckSolvableWithout(const Scene& scene, std::optional<Sc
 }
 
 const char* NameOf(Effect effect) {
-  constexpr const char* kNames[] = {"unspecified",     "friction",        "slip_stop",
-                                    "slip_turn",       "static_friction", "tangential_compliance",
-                                    "finite_duration", "finite_forces",   "higher_order"};
+  static constexpr const char* kNames[] = {"unspecified",     "friction",        "slip_stop",
+                                           "slip_turn",       "static_friction", "tangential_compliance",
+                                           "finite_duration", "finite_forces",   "higher_order"};
   static_assert(std::size(kNames) == kEffectCount);
   const auto number = static_cast<size_t>(effect);
   return number < std::size(kNames) ? kNames[number] : kNames[0];

@@ -289,7 +289,7 @@ void CheckLists(const MultiContactRequest& request, const MultiReduction& reduct
 }  // namespace
 
 const char* NameOf(MultiContactMethod method) {
-  constexpr const char* kNames[] = {"unspecified", "orders", "springs", "possible"};
+  static constexpr const char* kNames[] = {"unspecified", "orders", "springs", "possible"};
   static_assert(std::size(kNames) == kMultiContactMethods.size() + 1);
   const auto number = static_cast<size_t>(method);
   return number < std::size(kNames) ? kNames[number] : kNames[0];

@@ -74,9 +74,10 @@ std::string DerivativesText(const std::vector<Derivative>& derivatives) {
       continue;
     }
     table.Add({d.of, d.by, absl::StrCat(IfSet(d.from_below), " below, ", IfSet(d.from_above), " above", ErrorText(d))});
-    const std::string note = absl::StrCat("  By ", d.by, " on a threshold: ", ThresholdText(d.threshold), ".",
-                                          d.reason.empty() ? "" : " ", d.reason, "\n");
-    AppendOnce(note, notes);
+    const bool has_no_end = d.kind == DerivativeKind::kNone && d.threshold == Threshold::kUnspecified;
+    const std::string where =
+        has_no_end ? " there is none." : absl::StrCat(" on a threshold: ", ThresholdText(d.threshold), ".");
+    AppendOnce(absl::StrCat("  By ", d.by, where, d.reason.empty() ? "" : " ", d.reason, "\n"), notes);
   }
   return absl::StrCat("\nDerivatives\n", table.Render(2), notes);
 }

@@ -96,6 +96,10 @@ struct Path {
   bool IsRounding(T difference) const {
     return std::fabs(difference) <= T{2} * kEpsilon<T> * problem.steepest * (compression_end.tau + state.tau);
   }
+  // True if v is what Newton's law asks for, but for rounding: a contact that sticks may keep it for ever.
+  bool IsAtVelocityGoal() const {
+    return in_restitution && goal.quantity == Quantity::kVelocity && IsRounding(goal.target - state.v);
+  }
   void SetRegime(Regime of_compression, Regime of_restitution) {
     regime = in_restitution ? of_restitution : of_compression;
   }

@@ -167,11 +167,15 @@ std::optional<SlipFrame<T>> Solver<T>::GoOn() {
 template <typename T>
 void Solver<T>::Accept(const StepEnd<T>& end, int64_t steps) {
   steps_ += steps;
-  const State<T> before = std::exchange(state_, end.state);
+  if (problem_.may_jam) {
+    // Steps end where v, or its slope, changes its sign.
+    const State<T> before = std::exchange(state_, end.state);
+    if (impact_.path.RecedesSince(before)) impact_.path.RecordReceding(before);
+  } else {
+    state_ = end.state;
+  }
   impact_.errors.SetAfterStep(end.errors);
   if (problem_.may_jam) impact_.errors.NoteGap(impact_.path, std::fabs(end.overshoot));
-  // Steps end where v, or its slope, changes its sign.
-  if (impact_.path.RecedesSince(before)) impact_.path.RecordReceding(before);
   if (!end.reaches_goal) return;
   impact_.errors.SetEventDistance(end.distance_to_goal);
   Slopes<T> slopes = problem_.SlopesAlong(end.e);

@@ -78,7 +78,10 @@ void Follow(Progress<T>& impact, const StraightPiece<T>& piece) {
   while (!impact.path.ended) {
     const T to_goal = piece.ends_locked ? kInfinity<T> : impact.path.GoalFromHere().ImpulseToGoal(piece.slopes);
     const T length = std::min(to_goal, left);
-    if (!(length < kInfinity<T>)) return;
+    if (!(length < kInfinity<T>)) {
+      if (impact.path.IsAtVelocityGoal()) impact.EndPhase(piece.slopes);
+      return;
+    }
     Advance(impact, piece, length);
     if (!(to_goal <= left)) return;
     left -= length;

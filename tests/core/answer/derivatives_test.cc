@@ -781,5 +781,27 @@ TEST(DerivativesTest, ComeInTheOrderOfTheRequest) {
   }
 }
 
+// Friction holds the contact at v_s = 0.125 m/s, which is just what Newton's coefficient of 0.5 asks for. A larger one
+// wedges it, and no end is known. A smaller one ends the impact earlier, at the slope v0/v' of slip.
+TEST(DerivativesTest, ASideThatIsWedgedHasNone) {
+  const Scene scene = {.system = PlanarContact{1.0, 0.25, 0.0625, -1.5, -0.25},
+                       .friction = {.kinetic_coefficient = 0.3},
+                       .restitution = NewtonCoefficient{0.5}};
+  Scene beside = scene;
+  beside.restitution = NewtonCoefficient{0.50000001};
+  const auto wedged = LocalSolver().Solve({.scene = beside});
+  ASSERT_TRUE(wedged.ok());
+  ASSERT_EQ(wedged->outcome.regime, Regime::kWedged);
+  for (const char* const of : {"impulse.normal_total_n_s", "work.tangential_total_j", "coefficients.newton"}) {
+    const auto answer =
+        LocalSolver().Solve({.scene = scene, .derivatives = DerivativePaths{.of = {of}, .by = {"restitution.newton"}}});
+    ASSERT_TRUE(answer.ok()) << answer.status();
+    const Derivative& d = answer->outcome.derivatives.front();
+    EXPECT_EQ(d.kind, DerivativeKind::kOneSided) << of;
+    EXPECT_FALSE(d.from_above.has_value()) << of;
+    EXPECT_THAT(d.reason, testing::HasSubstr("Above, no end of the impact is known")) << of;
+  }
+}
+
 }  // namespace
 }  // namespace ricochet

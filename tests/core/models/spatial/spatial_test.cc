@@ -563,6 +563,25 @@ TEST(SpatialTest, SelfLockingAtFirstEndsOnceSlipHasStopped) {
   EXPECT_LE(Distance(problem, impact, Reference(problem)), 1e-10);
 }
 
+// Friction holds the contact at v = 0.125, all that Newton's coefficient asks for.
+TEST(SpatialTest, AContactThatIsHeldAtTheVelocityAskedForEnds) {
+  for (const double w22 : {0.0, 2.0}) {
+    const Problem problem = {.w11 = 1.0,
+                             .w13 = 0.25,
+                             .w22 = w22,
+                             .w33 = 0.0625,
+                             .u0 = {-1.5, 0.0},
+                             .v0 = -0.25,
+                             .mu = 0.3,
+                             .mu_static = 0.3,
+                             .law = RestitutionLaw::kNewton,
+                             .coefficient = 0.5};
+    const Impact impact = Solve(problem);
+    EXPECT_EQ(impact.regime, Regime::kStickInRestitution) << w22;
+    EXPECT_NEAR(impact.v1, 0.125, 1e-16) << w22;
+  }
+}
+
 // Keller's equations of one contact were integrated independently by a Runge-Kutta method: in restitution v grows up to
 // the normal impulse 0.45255902972, and falls through 0 at 0.54817552448. Compression ends at 0.35768286173.
 TEST(SpatialTest, TheEndRecedesWhereWhatEndsTheImpactBeginsToFall) {
