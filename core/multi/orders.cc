@@ -172,6 +172,7 @@ class Search {
         if (met == Met::kOnTheWay && (all_rest || Moves(next, state))) {
           EndWhereItCameBack(all_rest, state);
           Keep(std::move(state));
+          return taken;
         }
         if (met != Met::kNever) return taken;
       }
