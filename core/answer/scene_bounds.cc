@@ -78,8 +78,7 @@ class SpatialSample {
 // fast before the jump.
 absl::Status IncludeJump(double low, double high, SpatialSample& sample) {
   for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
-    const absl::Status included = sample.Include(middle);
-    if (!included.ok()) return included;
+    if (absl::Status included = sample.Include(middle); !included.ok()) return included;
     (sample.end_recedes() ? high : low) = middle;
   }
   return absl::OkStatus();
