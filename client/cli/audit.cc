@@ -46,7 +46,9 @@ struct AuditOptions {
 absl::StatusOr<Observed> ReadObserved(const AuditOptions& options) {
   if (options.rate.has_value()) {
     RICOCHET_TRY(const std::vector<double> rates, ParseNumbers(*options.rate, "--observed-rate"));
-    return Observed(ObservedRates{{rates.begin(), rates.end()}});
+    Observed observed;
+    observed.emplace<ObservedRates>().values.assign(rates.begin(), rates.end());
+    return observed;
   }
   if (!options.velocity.has_value()) {
     return absl::InvalidArgumentError(
