@@ -97,7 +97,7 @@ const Estimate& BetterOf(const Estimate& x, const Estimate& y) { return IsBetter
 
 // --- Both sides of a number ---
 
-// As where an impact has no end.
+// The derivative of a number that does not exist, as where an impact has no end.
 constexpr OneSided kNoNumber = {.why_none = "there is no such number"};
 
 class Sides {

@@ -193,10 +193,10 @@ double ExactDerivatives::SizeOf(size_t place) const {
 bool ExactDerivatives::IsMoved(const Side& side) { return std::fabs(side.step) == kBeside; }
 
 OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
-  if (!side.exists && has_end_) return {.why_none = "the scene would break a rule"};
-  if (!has_end_ || !HasEnd(impacts_[side.impact].tangent.branch.regime)) {
-    return {.why_none = "no end of the impact is known"};
-  }
+  constexpr OneSided kNoEnd = {.why_none = "no end of the impact is known"};
+  if (!has_end_) return kNoEnd;
+  if (!side.exists) return {.why_none = "the scene would break a rule"};
+  if (!HasEnd(impacts_[side.impact].tangent.branch.regime)) return kNoEnd;
   if (LosesRank(side)) {
     return {.why_none = "the rank of W, or whether the velocity lies in its range, changes at once"};
   }

@@ -49,8 +49,7 @@ class SpatialSample {
     const spatial::Impact impact = spatial::Solve(problem_);
     if (!impact.Converged()) return NotEnded();
     regime_ = impact.regime;
-    recedes_ = std::any_of(impact.events.begin(), impact.events.begin() + impact.event_count,
-                           [](const spatial::Instant& at) { return at.kind == EventKind::kEndRecedes; });
+    recedes_ = HasEvent(impact, EventKind::kEndRecedes);
     Widen(impact.newton, hull_.newton);
     Widen(impact.poisson, hull_.poisson);
     Widen(impact.energetic, hull_.energetic);

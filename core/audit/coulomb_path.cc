@@ -75,9 +75,7 @@ PathPoint DuringCompression(const Problem& problem, const Impact& impact, double
   PathPoint point{
       .regime = RegimeOf(impact), .w_rank = impact.w_rank, .tau_compression = impact.tau_compression, .tau = tau};
   point.steps = Steps(impact);
-  const bool stopped =
-      std::any_of(impact.events.begin(), impact.events.begin() + impact.event_count,
-                  [&](const auto& event) { return event.kind == EventKind::kSlipStops && event.tau <= tau; });
+  const bool stopped = HasEvent(impact, EventKind::kSlipStops, tau);
   const bool slides = !stopped && Slips(problem) && impact.regime != Regime::kFrictionless;
   if (slides && point.regime != Regime::kUnspecified) point.regime = Regime::kSliding;
   point.poisson = (tau - impact.tau_compression) / impact.tau_compression;

@@ -92,11 +92,6 @@ struct EnergyWalk {
   }
 };
 
-bool HasStopped(const Impact& impact) {
-  return std::any_of(impact.events.begin(), impact.events.begin() + impact.event_count,
-                     [](const Instant& instant) { return instant.kind == EventKind::kSlipStops; });
-}
-
 // Walks from the end of the elastic impact to the point at which the kinetic energy equals that before the impact.
 EnergyWalk WhereEnergyIsBack(const Problem& problem, const Impact& elastic) {
   EnergyWalk at = {.tau = elastic.tau1,
@@ -108,7 +103,7 @@ EnergyWalk WhereEnergyIsBack(const Problem& problem, const Impact& elastic) {
   Slopes slopes;
   if (problem.w.tt == 0.0) {
     slopes = SlopesAt(problem, elastic.w_rank, problem.u0 == 0.0 ? 0.0 : -std::copysign(problem.mu, problem.u0));
-  } else if (HasStopped(elastic) || problem.u0 == 0.0) {
+  } else if (HasEvent(elastic, EventKind::kSlipStops) || problem.u0 == 0.0) {
     slopes = SlopesAfterStop(problem, elastic.w_rank);
   } else {
     slopes = SlopesAt(problem, elastic.w_rank, -std::copysign(problem.mu, problem.u0));

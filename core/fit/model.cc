@@ -119,7 +119,7 @@ bool Model::Resolves(const std::vector<double>& unknowns) {
   // Near their scales unknowns do not cancel by as much, and the slopes are not worth their time.
   constexpr double kFar = 0x1p10;
   constexpr double kMostOfSigma = 1e-4;
-  // What moves a number by less than so many of its own roundings has not cancelled.
+  // Terms that are at most so many times as large as the measured number have not cancelled.
   constexpr double kCancels = 0x1p10;
   bool is_far = false;
   for (size_t k = 0; k < unknowns.size(); ++k) is_far |= std::fabs(unknowns[k]) > kFar * problem_.scale[k];

@@ -4,6 +4,9 @@
 #ifndef RICOCHET_CORE_MODELS_IMPACT_END_H_
 #define RICOCHET_CORE_MODELS_IMPACT_END_H_
 
+#include <algorithm>
+#include <limits>
+
 #include "ricochet/outcome.h"
 
 namespace ricochet {
@@ -42,6 +45,13 @@ struct ImpactInstant {
   double v = 0.0;
   friend bool operator==(const ImpactInstant&, const ImpactInstant&) = default;
 };
+
+// True if the impact has an event of this kind at a normal impulse of at most `tau`.
+template <typename Impact>
+bool HasEvent(const Impact& impact, EventKind kind, double tau = std::numeric_limits<double>::infinity()) {
+  return std::any_of(impact.events.begin(), impact.events.begin() + impact.event_count,
+                     [&](const auto& event) { return event.kind == kind && event.tau <= tau; });
+}
 
 // The result for a contact that does not approach, v0 >= 0: nothing changes.
 template <typename Impact, typename Tangential>

@@ -106,6 +106,11 @@ class Search {
     works.compression_impulse += impact.works.compression_impulse;
   }
 
+  // What the approach of contact i would still do, on the scale of Attained::error.
+  double LeftOut(int i, const Attained& state) const {
+    return (1.0 + problem_.laws[At(i)].e) * -state.v(problem_.N(i)) / roots_(problem_.N(i));
+  }
+
   // Returns the contacts that approach by more than rounding. Adds to `left_out` what the others would still do.
   std::vector<int> Approaching(const Attained& state, double& left_out) const {
     std::vector<int> contacts;
@@ -115,7 +120,7 @@ class Search {
       if (v < -std::min(state.ErrorOf(problem_, problem_.N(i)), kRoundingSpeed * scale_)) {
         contacts.push_back(i);
       } else {
-        left_out += (1.0 + problem_.laws[At(i)].e) * -v / roots_(problem_.N(i));
+        left_out += LeftOut(i, state);
       }
     }
     return contacts;
@@ -165,12 +170,10 @@ class Search {
       const auto others =
           std::stable_partition(next.begin(), next.end(), [&](int i) { return i > last || coupled_[Place(i, last)]; });
       if (others == next.begin() && !shares_) return taken;
-      const bool all_rest = !Moves(next, state);
       if (others != next.begin()) next.erase(others, next.end());
       if (next.size() > 1) {
         const Met met = Meet(state);
-        if (met == Met::kOnTheWay && (all_rest || Moves(next, state))) {
-          EndWhereItCameBack(all_rest, state);
+        if (met == Met::kOnTheWay && EndWhereItCameBack(next, state)) {
           Keep(std::move(state));
           return taken;
         }
@@ -204,25 +207,21 @@ class Search {
     }
   }
 
-  // True if one of the contacts approaches by more than what is left of a sequence without end.
-  bool Moves(const std::vector<int>& contacts, const Attained& state) const {
-    return std::any_of(contacts.begin(), contacts.end(),
-                       [&](int i) { return -state.v(problem_.N(i)) > kEndlessSpeed * scale_; });
-  }
-
-  // Ends a sequence that has come back to its own state: it goes on for ever, unless all speeds have fallen to
-  // rounding, which may still be struck then.
-  void EndWhereItCameBack(bool all_rest, Attained& state) const {
-    if (!all_rest) {
+  // Ends a sequence that has come back to its own state. It goes on for ever if one of `next` approaches by more than
+  // rounding; if no contact does, it has come to rest. Returns false if others, whose turn comes in another order, do.
+  bool EndWhereItCameBack(const std::vector<int>& next, Attained& state) const {
+    const auto moves = [&](int i) { return -state.v(problem_.N(i)) > kEndlessSpeed * scale_; };
+    if (std::any_of(next.begin(), next.end(), moves)) {
       state.end = MultiContactEnd::kBudgetUsedUp;
-      return;
+      return true;
     }
     for (int i = 0; i < problem_.k; ++i) {
-      const double speed = std::max(-state.v(problem_.N(i)), 0.0);
-      if (speed > 0.0) state.error += (1.0 + problem_.laws[At(i)].e) * speed / roots_(problem_.N(i));
+      if (moves(i)) return false;
+      if (state.v(problem_.N(i)) < 0.0) state.error += LeftOut(i, state);
     }
     state.end = MultiContactEnd::kEndlessEstimate;
     state.error_is_proved = false;
+    return true;
   }
 
   // Keeps as many branches as the budget follows to their ends, at least one, and not always the same.

@@ -28,7 +28,7 @@ struct Demand {
   friend bool operator==(const Demand&, const Demand&) = default;
 };
 
-// What a request says of accuracy and effects.
+// Returns what a request demands of accuracy and effects.
 Demand ToDemand(const DemandFields& fields);
 
 // These effects do not exist without friction.

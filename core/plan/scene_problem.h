@@ -43,11 +43,11 @@ Problem MakeProblem(const SpatialReduction& reduction, const Restitution& restit
 
 }  // namespace spatial
 
-// The scene that states a model's problem, for code that starts from a scene, such as certificates.
+// Returns the scene that states a model's problem, for code that starts from a scene, such as certificates.
 Scene SceneOf(const pendulum::Problem& problem);
 Scene SceneOf(const planar::Problem& problem);
 
-// The same contact for the models whose slip neither stops nor turns.
+// Returns the same contact for the models whose slip neither stops nor turns.
 inline sliding::Problem<1> SlidingProblemOf(const planar::Problem& problem) {
   return {.w = {problem.w.tt, problem.w.tn, problem.w.nn},
           .u0 = {problem.u0},

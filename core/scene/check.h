@@ -14,15 +14,12 @@
 #include "absl/functional/function_ref.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/counted.h"
+#include "core/base/decimal.h"
 #include "core/contact/scene_contact.h"
 #include "core/scene/numbers.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
-
-// Where models multiply entries of W by each other, a diagonal entry is 0 or at least this part of the largest: smaller
-// ones would be lost.
-inline constexpr double kLeastShareOfW = 0x1p-460;
 
 inline bool AllFinite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
@@ -116,6 +113,21 @@ void CheckEffects(const Scene& scene, Check& check);
 // rules at the approach speed. All other rules must hold already. If that takes reducing the scene, `contact` is what
 // it was reduced to; `known` is that if the caller has it, else null.
 void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, std::optional<SceneContact>& contact);
+
+// Where models multiply entries of W by each other, a diagonal entry is 0 or at least this part of the largest: smaller
+// ones would be lost.
+inline constexpr double kLeastShareOfW = 0x1p-460;
+
+// Checks one diagonal entry of W, in 1/kg; `field()` names what has it.
+template <typename Field>
+void RequireShareOfW(double own, double largest, const Field& field, Check& check) {
+  check.Require(!(own > 0.0 && own / largest < kLeastShareOfW), [&] {
+    return MakeViolation(field(), absl::StrCat("has ", ShortestDecimal(own), " 1/kg on the diagonal of W"),
+                         absl::StrCat("have 0 or at least ", ShortestDecimal(kLeastShareOfW), " times the largest, ",
+                                      ShortestDecimal(largest)),
+                         ViolationKind::kContact);
+  });
+}
 
 }  // namespace ricochet
 

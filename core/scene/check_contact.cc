@@ -42,16 +42,10 @@ void CheckSpread(const Scene& scene, const SpatialReduction& reduction, const Ef
   constexpr double kMostFriction = 1.0 / kLeastShareOfW;
   const auto& [w11, w12, w13, w22, w23, w33] = reduction.w;
   const double largest = std::max({w11, w22, w33});
-  for (const double own : {w11, w22, w33}) {
-    check.Require(own == 0.0 || own >= kLeastShareOfW * largest, [&] {
-      const bool is_stated = std::holds_alternative<SpatialContact>(scene.system);
-      return MakeViolation(is_stated ? "spatial_contact.w_per_kg" : "system",
-                           absl::StrCat("has ", ShortestDecimal(own), " 1/kg on the diagonal of W"),
-                           absl::StrCat("have 0 or at least ", ShortestDecimal(kLeastShareOfW), " times the largest, ",
-                                        ShortestDecimal(largest)),
-                           ViolationKind::kContact);
-    });
-  }
+  const auto field = [&scene] {
+    return std::holds_alternative<SpatialContact>(scene.system) ? "spatial_contact.w_per_kg" : "system";
+  };
+  for (const double own : {w11, w22, w33}) RequireShareOfW(own, largest, field, check);
   // A product that overflows has a violation of its own.
   const double friction = effective.kinetic_friction;
   check.Require(friction <= kMostFriction || !std::isfinite(friction), [&] {
@@ -133,8 +127,9 @@ void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, s
   const bool is_finite = IsFinite(reduction);
   const double speed = ApproachSpeed(reduction);
   if (is_finite && !MobilityIsSure(scene)) CheckMobility(scene, reduction, check);
-  if (const auto* const spatial = std::get_if<SpatialReduction>(&reduction); is_finite && spatial != nullptr) {
-    if (spatial->v0 < 0.0) CheckSpread(scene, *spatial, contact->coefficients, check);
+  const auto* const spatial = std::get_if<SpatialReduction>(&reduction);
+  if (is_finite && spatial != nullptr && spatial->v0 < 0.0) {
+    CheckSpread(scene, *spatial, contact->coefficients, check);
   }
   if (DependsOnSpeed(scene) && std::isfinite(speed)) CheckEffective(scene, contact->coefficients, speed, check);
   if (is_finite && with_spring) CheckSpring(scene, std::get<PlanarReduction>(reduction), contact->coefficients, check);

@@ -183,13 +183,8 @@ void CheckSpread(const MultiReduction& reduction, Check& check) {
   const Eigen::VectorXd diagonal = reduction.w.diagonal();
   const double largest = diagonal.maxCoeff();
   for (Eigen::Index row = 0; row < diagonal.size(); ++row) {
-    const double own = diagonal(row);
-    check.Require(!(own > 0.0 && own / largest < kLeastShareOfW), [&] {
-      return MakeViolation(Entry("contacts", static_cast<size_t>(row / reduction.directions), ""),
-                           absl::StrCat("has ", ShortestDecimal(own), " 1/kg on the diagonal of W"),
-                           absl::StrCat("have 0 or at least ", ShortestDecimal(kLeastShareOfW), " times the largest, ",
-                                        ShortestDecimal(largest)));
-    });
+    const auto field = [&] { return Entry("contacts", static_cast<size_t>(row / reduction.directions), ""); };
+    RequireShareOfW(diagonal(row), largest, field, check);
   }
 }
 

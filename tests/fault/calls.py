@@ -10,7 +10,7 @@ from framework import require
 
 LIMIT_S = 60  # The longest that a check waits for one answer, whatever the machine.
 
-# Of clients that several servers share: each call is tried again on another of them.
+# Clients of several servers have this policy: each call is tried again on another server.
 POLICY = """{"loadBalancingConfig": [{"round_robin": {}}], "methodConfig": [{"name": [{}], "waitForReady": true,
   "retryPolicy": {"maxAttempts": 5, "initialBackoff": "0.05s", "maxBackoff": "0.5s", "backoffMultiplier": 2,
                   "retryableStatusCodes": ["UNAVAILABLE"]}}]}"""

@@ -51,7 +51,7 @@ class Integrator {
   // The error of the step over that of the formula of order 7.
   double ShareOfOrder8(const End& end) const;
   bool TakeWholeStep(double& h, End& end);
-  // What a place in a step of size `h` is watched by.
+  // A step of size `h` is watched by these numbers at a place in it.
   struct Watch {
     Motion rates;
     Guards value, slope;  // The guards, and how fast they change.

@@ -12,6 +12,7 @@
 
 #include "core/answer/derivatives.h"
 #include "ricochet/solver.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -222,13 +223,9 @@ TEST(NearThresholds, LieWhereTheCourseChangesInEveryModel) {
   }
 }
 
-// A Runge-Kutta method found that v grows up to 0.03227808 m/s in restitution before it falls, and rises again later.
 TEST(NearThresholds, InSpaceTheEndMayRecede) {
-  const Scene scene = {.system = SpatialContact{.w_per_kg = {1.2367, 0.4119, -1.6898, 3.6464, -2.9784, 3.9852},
-                                                .tangential_m_s = {0.8761, -0.8394},
-                                                .normal_m_s = -0.6307},
-                       .friction = {.kinetic_coefficient = 1.3465},
-                       .restitution = NewtonCoefficient{0.05}};
+  Scene scene = WithEndThatRecedes();
+  scene.restitution = NewtonCoefficient{0.05};
   const std::vector<Derivative> found = DerivativesOf(scene, {"restitution.newton"});
   ASSERT_EQ(found.size(), 1U);
   ASSERT_TRUE(found[0].above.has_value());

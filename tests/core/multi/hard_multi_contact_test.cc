@@ -276,7 +276,7 @@ TEST(HardMultiContactTest, ASequenceThatComesBackToRestHasEnded) {
   }
 }
 
-// As above, beside a fourth contact that moves a coordinate of its own: no order ends before it has been struck.
+// The scene above has a fourth contact, which moves a coordinate of its own: no order ends before it has been struck.
 TEST(HardMultiContactTest, ASequenceThatComesBackToRestLeavesNoOtherContactOut) {
   for (const double approach : {-1.0, -100.0}) {
     MultiContactScene scene;

@@ -70,7 +70,7 @@ TEST(EigenTest, ShapesThatDoNotFitAreNamed) {
   const absl::Status tall = MechanismFrom(mass, Eigen::MatrixXd::Ones(5, 4), rates).status();
   EXPECT_EQ(ViolationsOf(tall).at(0),
             (Violation{"mechanism.jacobian", "is 5 x 4: must be 2 x 4 or 3 x 4 for 4 rates"}));
-  // As many entries as a matrix that fits.
+  // These have as many entries as a matrix that fits.
   const absl::Status flat = MechanismFrom(mass.reshaped(2, 8), jacobian.reshaped(4, 2), rates).status();
   ASSERT_EQ(ViolationsOf(flat).size(), 2);
   EXPECT_EQ(ViolationsOf(flat)[0], (Violation{"mechanism.mass_matrix", "is 2 x 8: must be 4 x 4 for 4 rates"}));

@@ -10,7 +10,7 @@
 
 namespace ricochet::spatial {
 
-// What a contact does after compression, and how precisely its impact is wanted; by default as in Problem.
+// Rest says what a contact does after compression, and how precisely its impact is wanted; by default as in Problem.
 struct Rest {
   RestitutionLaw law = Problem().law;
   double coefficient = Problem().coefficient;

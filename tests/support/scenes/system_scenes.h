@@ -55,6 +55,14 @@ inline Scene With(const System& system) {
   return {.system = system, .friction = {.kinetic_coefficient = 0.5}, .restitution = EnergeticCoefficient{0.5}};
 }
 
+// A contact in space whose end recedes for coefficients that are not small: an independent Runge-Kutta method found
+// that v grows up to 0.03227808 m/s in restitution, and falls through 0 where the ratio of impulses is 1.2794394307.
+inline Scene WithEndThatRecedes() {
+  Scene scene = With(SpatialContact{{1.2367, 0.4119, -1.6898, 3.6464, -2.9784, 3.9852}, {0.8761, -0.8394}, -0.6307});
+  scene.friction.kinetic_coefficient = 1.3465;
+  return scene;
+}
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_TESTS_SUPPORT_SCENES_SYSTEM_SCENES_H_

@@ -566,17 +566,8 @@ TEST(SpatialTest, SelfLockingAtFirstEndsOnceSlipHasStopped) {
 // Friction holds the contact at v = 0.125, all that Newton's coefficient asks for.
 TEST(SpatialTest, AContactThatIsHeldAtTheVelocityAskedForEnds) {
   for (const double w22 : {0.0, 2.0}) {
-    const Problem problem = {.w11 = 1.0,
-                             .w13 = 0.25,
-                             .w22 = w22,
-                             .w33 = 0.0625,
-                             .u0 = {-1.5, 0.0},
-                             .v0 = -0.25,
-                             .mu = 0.3,
-                             .mu_static = 0.3,
-                             .law = RestitutionLaw::kNewton,
-                             .coefficient = 0.5};
-    const Impact impact = Solve(problem);
+    const Impact impact = Solve(Contact({1.0, 0.0, 0.25, w22, 0.0, 0.0625}, {-1.5, 0.0}, -0.25, 0.3,
+                                        {.law = RestitutionLaw::kNewton, .coefficient = 0.5}));
     EXPECT_EQ(impact.regime, Regime::kStickInRestitution) << w22;
     EXPECT_NEAR(impact.v1, 0.125, 1e-16) << w22;
   }
@@ -585,16 +576,7 @@ TEST(SpatialTest, AContactThatIsHeldAtTheVelocityAskedForEnds) {
 // Keller's equations of one contact were integrated independently by a Runge-Kutta method: in restitution v grows up to
 // the normal impulse 0.45255902972, and falls through 0 at 0.54817552448. Compression ends at 0.35768286173.
 TEST(SpatialTest, TheEndRecedesWhereWhatEndsTheImpactBeginsToFall) {
-  Problem problem = {.w11 = 1.2367,
-                     .w12 = 0.4119,
-                     .w13 = -1.6898,
-                     .w22 = 3.6464,
-                     .w23 = -2.9784,
-                     .w33 = 3.9852,
-                     .u0 = {0.8761, -0.8394},
-                     .v0 = -0.6307,
-                     .mu = 1.3465,
-                     .mu_static = 1.3465};
+  Problem problem = Contact({1.2367, 0.4119, -1.6898, 3.6464, -2.9784, 3.9852}, {0.8761, -0.8394}, -0.6307, 1.3465);
   struct Case {
     RestitutionLaw law;
     double before, after;  // Coefficients on both sides of the jump.
